@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "cloth_sim/constraints/pins.h"
+#include "cloth_sim/model/cloth_model.h"
+#include "cloth_sim/model/cloth_state.h"
+
+namespace cloth
+{
+
+struct StrainLimitProperties
+{
+  double max_strain = 0.1;  ///< critical deformation rate tau_c; 0: no limit
+  int sweeps = 30;          ///< most passes over the springs after a step
+};
+
+/// Provot's cure for super-elasticity (1995, section 4): after the positions have moved, every structural and shear
+/// spring whose strain |l|/l0 - 1 is above max_strain is shortened along itself to exactly max_strain. Its ends share
+/// the shift by inverse mass; a pinned end stays. Passes over all springs repeat until none is above, or `sweeps` are
+/// done: batches in the model's order, springs in memory order, every second pass backwards. Velocities follow:
+/// v <- v + (x_corrected - x)/h; without this the method is unstable.
+class StrainLimit
+{
+public:
+  /// A strain this much above max_strain, relative to it, counts as reached.
+  static constexpr double tolerance = 1e-4;
+
+  StrainLimit(const ClothModel& model, const StrainLimitProperties& properties);
+
+  /// False: max_strain is 0, and `apply` must not be called.
+  bool active() const
+  {
+    return properties_.max_strain > 0.0;
+  }
+  const StrainLimitProperties& properties() const
+  {
+    return properties_;
+  }
+
+  /// What one call did.
+  struct Report
+  {
+    int sweeps = 0;         ///< passes made, the last of which may have found nothing
+    bool moved = false;     ///< some node moved
+    bool reached = true;    ///< no spring that can be shortened is above the limit
+  };
+
+  /// Corrects the positions and velocities of `state` after a step of length h (s).
+  Report apply(const ClothModel& model, const Pins& pins, double h, ClothState& state);
+
+private:
+  StrainLimitProperties properties_;
+  std::vector<double> inverse_masses_;
+  Vectors uncorrected_;
+};
+
+}  // namespace cloth

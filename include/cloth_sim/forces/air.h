@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cloth_sim/model/cloth_model.h"
+
+namespace cloth
+{
+
+struct AirProperties
+{
+  double viscous_damping = 0.3;                       ///< N s/m per m2 of sheet
+  double wind_coupling = 1.0;                         ///< N s/m per m2 of sheet
+  Eigen::Vector3d wind = Eigen::Vector3d::Zero();     ///< u, the air's velocity, m/s
+};
+
+/// The air's force on each node (Provot 1995, section 3.2):
+///
+///   -C_dis v_i  +  C_vi (n_i . (u - v_i)) n_i
+///
+/// C_dis and C_vi are `viscous_damping` and `wind_coupling` times the node's area, n_i its normal (`node_normals`).
+/// Without coupling no normal is ever computed. A chain has no normals and feels viscous damping only.
+class Air
+{
+public:
+  explicit Air(const AirProperties& properties);
+
+  const AirProperties& properties() const
+  {
+    return properties_;
+  }
+  void set_wind(const Eigen::Vector3d& wind)
+  {
+    properties_.wind = wind;
+  }
+
+  /// Adds the force above, in N, to every node.
+  void add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& forces) const;
+
+  /// Solves (m + h C_dis) v + h C_vi (n . (v - u)) n = m v_given for every node, in closed form: the air of an
+  /// implicit step of length h, positions held. Velocities in m/s, h in s.
+  void damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const;
+
+  /// The largest (C_dis + C_vi) / m of any node, 1/s: the fastest rate at which the air slows a node.
+  double damping_rate(const ClothModel& model) const;
+
+private:
+  bool needs_normals(const ClothModel& model) const;
+
+  AirProperties properties_;
+  mutable Vectors normals_;
+};
+
+}  // namespace cloth

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "cloth_sim/model/cloth_model.h"
+
+namespace cloth
+{
+
+/// Adds the elastic and the internal damping force of every spring to both of its ends: `spring_force`, batch by
+/// batch. All arguments have one row a node; positions in m, velocities in m/s, forces in N.
+void add_spring_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& forces);
+
+/// The elastic energy, sum of k (|l| - l0)^2 / 2, in J. The elastic force is minus its gradient.
+double elastic_energy(const ClothModel& model, const Vectors& positions);
+
+/// The largest |l|/l0 - 1 of the structural and shear springs; 0 where there are none and where all are compressed.
+double max_strain(const ClothModel& model, const Vectors& positions);
+
+/// Adds K u, K = -df/dx of the elastic forces without the part that compression makes negative:
+///
+///   k [n n^T + max(0, 1 - l0/|l|) (I - n n^T)] (u_i - u_j),   n = l/|l|
+///
+/// so that K is positive semidefinite and its largest eigenvalue is never below that of the whole Jacobian.
+/// `displacements` in m, `product` in N.
+void add_stiffness_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
+                           Vectors& product);
+
+/// Adds C w, C = -df/dv of the internal damping: c n n^T (w_i - w_j). `velocities` in m/s, `product` in N.
+void add_damping_product(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+                         Vectors& product);
+
+}  // namespace cloth

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cloth_sim/constraints/pins.h"
+#include "cloth_sim/forces/air.h"
+#include "cloth_sim/model/cloth_model.h"
+
+namespace cloth
+{
+
+/// The differential equation that a method advances, m_i a_i = f_i(t, x, v) with the pinned nodes' motion prescribed.
+/// Const while stepping.
+class Dynamics
+{
+public:
+  Dynamics(ClothModel model, const Eigen::Vector3d& gravity, const AirProperties& air);
+  virtual ~Dynamics() = default;
+
+  const ClothModel& model() const
+  {
+    return model_;
+  }
+  const Eigen::Vector3d& gravity() const
+  {
+    return gravity_;
+  }
+  const Air& air() const
+  {
+    return air_;
+  }
+  Air& air()
+  {
+    return air_;
+  }
+  const Pins& pins() const
+  {
+    return pins_;
+  }
+  Pins& pins()
+  {
+    return pins_;
+  }
+
+  /// The force on every node but for the air's: springs and gravity, N. `forces` is overwritten.
+  virtual void forces_without_air(double time, const Vectors& positions, const Vectors& velocities,
+                                  Vectors& forces) const;
+
+  /// M^-1 f, in m/s2, zero for pinned nodes. May be done in place.
+  void accelerations_of(const Vectors& forces, Vectors& accelerations) const;
+
+  /// The acceleration of every node, air included, zero for pinned nodes: the right-hand side as a whole.
+  void accelerations(double time, const Vectors& positions, const Vectors& velocities, Vectors& accelerations) const;
+
+private:
+  ClothModel model_;
+  Eigen::Vector3d gravity_;
+  Air air_;
+  Pins pins_;
+};
+
+}  // namespace cloth

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cloth_sim/methods/method.h"
+#include "cloth_sim/scene/scene_params.h"
+#include "cloth_sim/simulation/simulation.h"
+
+namespace cloth
+{
+
+/// One part of the model: kept or left out, and why.
+struct PlanLine
+{
+  std::string part;
+  bool kept = true;
+  std::string reason;
+};
+
+/// What of a scene is modelled, decided once before the simulation is built.
+struct Plan
+{
+  SceneParams scene;  ///< without what is left out
+  const MethodRow* method = nullptr;
+  std::vector<PlanLine> lines;
+};
+
+/// Decides what the scene needs. Throws SceneError where its parts do not fit together (pins outside the sheet, a
+/// node in two pins).
+Plan make_plan(const SceneParams& scene);
+
+/// The simulation of a plan, at time 0.
+Simulation build_simulation(const Plan& plan);
+
+/// The plan's lines and one for the step as `simulation` takes it now, each as text: "flex springs: left out,
+/// stiffness is 0".
+std::vector<std::string> describe(const Plan& plan, const Simulation& simulation);
+
+/// One sentence with both numbers where the given step is beyond the stability limit; empty otherwise.
+std::string time_step_warning(const Simulation& simulation);
+
+}  // namespace cloth

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cloth_sim/constraints/pins.h"
+#include "cloth_sim/constraints/strain_limit.h"
+#include "cloth_sim/methods/dynamics.h"
+#include "cloth_sim/methods/method.h"
+#include "cloth_sim/methods/spectrum.h"
+#include "cloth_sim/model/cloth_state.h"
+#include "cloth_sim/simulation/divergence_guard.h"
+#include "cloth_sim/simulation/energy.h"
+
+namespace cloth
+{
+
+/// All that a simulation starts from.
+struct SimulationSetup
+{
+  ClothModel model;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s2
+  AirProperties air;
+  std::vector<Pin> pins;
+  StrainLimitProperties strain_limit;
+  const MethodRow* method = nullptr;
+  double time_step = 0.0;  ///< s; 0: 0.9 of the stability limit as it is, or 1/240 where there is none
+  ClothState start;
+};
+
+/// One cloth on its way through time. Owned by one thread; requests are taken between two calls of `advance_to`.
+class Simulation
+{
+public:
+  /// The part of the stability limit that is taken where no step is given.
+  static constexpr double limit_share = 0.9;
+
+  /// What was done since the start.
+  struct Counters
+  {
+    std::uint64_t steps = 0;
+    std::uint64_t force_evaluations = 0;
+    std::uint64_t linear_solves = 0;
+    std::uint64_t limit_sweeps = 0;  ///< passes of the strain limit over the springs
+  };
+
+  /// Throws std::invalid_argument where the setup's sizes do not fit together or no method is named.
+  explicit Simulation(SimulationSetup setup);
+
+  /// Advances to `time` (s) in equal steps, as few as the time step allows; where no step is given and the stability
+  /// limit falls on the way, the rest of the way is divided anew. False: the simulation has diverged, and holds the
+  /// last good state.
+  bool advance_to(double time);
+
+  const ClothModel& model() const
+  {
+    return dynamics_.model();
+  }
+  const ClothState& state() const
+  {
+    return state_;
+  }
+  const Dynamics& dynamics() const
+  {
+    return dynamics_;
+  }
+  const Pins& pins() const
+  {
+    return dynamics_.pins();
+  }
+  const StrainLimit& strain_limit() const
+  {
+    return strain_limit_;
+  }
+  const MethodRow& method() const
+  {
+    return *method_row_;
+  }
+  const Counters& counters() const
+  {
+    return counters_;
+  }
+  const std::optional<Divergence>& divergence() const
+  {
+    return divergence_;
+  }
+  /// The divergence in words: when, which node, the step and the stability limit, what to change. Empty: none.
+  std::string divergence_report() const;
+
+  /// The step that is taken as the cloth is now, s: the given one, or that which follows from the stability limit.
+  double time_step() const;
+  /// The largest stable step of the cloth as it is now, s; infinite where there is none.
+  double stability_limit() const;
+
+  // Requests. The state carries on.
+
+  void set_wind(const Eigen::Vector3d& wind);
+  /// Holds `nodes` where they are. They leave the pins that held them before.
+  void hold(const std::string& name, const std::vector<int>& nodes);
+  /// Lets the named pin's nodes go, at the velocity that they have. False: no pin has this name.
+  bool release(const std::string& name);
+  void release_all();
+  /// Carries the middle of the named pin's nodes to `target` (m) within `duration` (s). False: no pin has this name.
+  bool carry(const std::string& name, const Eigen::Vector3d& target, double duration);
+
+private:
+  static constexpr int steps_between_checks = 64;
+
+  void step(double h);
+  void keep_or_restore();
+  void changed_from_outside();
+
+  Dynamics dynamics_;
+  StrainLimit strain_limit_;
+  const MethodRow* method_row_;
+  std::unique_ptr<Method> method_;
+  double given_time_step_;
+  ClothState state_;
+  ClothState last_good_;
+  DivergenceGuard guard_;
+  std::optional<Divergence> divergence_;
+  Counters counters_;
+  mutable Spectrum spectrum_;
+};
+
+}  // namespace cloth

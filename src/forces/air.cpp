@@ -1,0 +1,71 @@
+#include "cloth_sim/forces/air.h"
+
+namespace cloth
+{
+
+Air::Air(const AirProperties& properties) : properties_(properties)
+{
+}
+
+bool Air::needs_normals(const ClothModel& model) const
+{
+  return properties_.wind_coupling > 0.0 && !model.is_chain();
+}
+
+void Air::add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+                     Vectors& forces) const
+{
+  if (properties_.viscous_damping > 0.0)
+  {
+    for (int d = 0; d < 3; ++d)
+    {
+      forces.col(d).array() -= properties_.viscous_damping * model.areas.array() * velocities.col(d).array();
+    }
+  }
+  if (!needs_normals(model))
+  {
+    return;
+  }
+  node_normals(model, positions, normals_);
+  const Eigen::RowVector3d wind = properties_.wind.transpose();
+  for (int i = 0; i < model.nodes(); ++i)
+  {
+    const double normal_speed = normals_.row(i).dot(wind - velocities.row(i));
+    forces.row(i) += properties_.wind_coupling * model.areas[i] * normal_speed * normals_.row(i);
+  }
+}
+
+// n is a unit vector, so that along n the equation is scalar:
+// (m + h C_dis + h C_vi) (n . v) = m (n . v_given) + h C_vi (n . u),  and across n: (m + h C_dis) v = m v_given.
+void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const
+{
+  if (properties_.viscous_damping > 0.0)
+  {
+    for (int d = 0; d < 3; ++d)
+    {
+      velocities.col(d).array() *=
+          model.masses.array() / (model.masses.array() + h * properties_.viscous_damping * model.areas.array());
+    }
+  }
+  if (!needs_normals(model))
+  {
+    return;
+  }
+  node_normals(model, positions, normals_);
+  const Eigen::RowVector3d wind = properties_.wind.transpose();
+  for (int i = 0; i < model.nodes(); ++i)
+  {
+    const double coupled = h * properties_.wind_coupling * model.areas[i];
+    const double inertia = model.masses[i] + h * properties_.viscous_damping * model.areas[i];
+    const double normal_speed = normals_.row(i).dot(wind - velocities.row(i));
+    velocities.row(i) += coupled / (inertia + coupled) * normal_speed * normals_.row(i);
+  }
+}
+
+double Air::damping_rate(const ClothModel& model) const
+{
+  const double wind_coupling = needs_normals(model) ? properties_.wind_coupling : 0.0;
+  return (properties_.viscous_damping + wind_coupling) * (model.areas.array() / model.masses.array()).maxCoeff();
+}
+
+}  // namespace cloth

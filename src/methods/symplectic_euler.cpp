@@ -1,0 +1,51 @@
+#include <cmath>
+#include <limits>
+
+#include "rows.h"
+
+namespace cloth
+{
+namespace
+{
+
+/// Semi-implicit Euler: v' = v + h a(t, x, v), then x' = x + h v'. Provot (1995) steps his sheets this way.
+class SymplecticEuler : public Method
+{
+public:
+  StepCost step(const Dynamics& dynamics, double h, ClothState& state) override
+  {
+    dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
+    state.velocities += h * accelerations_;
+    state.positions += h * state.velocities;
+    state.time += h;
+    dynamics.pins().impose(state.time, state.positions, state.velocities);
+    return { 1, 0 };
+  }
+
+private:
+  Vectors accelerations_;
+};
+
+// The first eigenvalue of the step to leave the unit circle leaves it at -1, where z^2/4 + D h/2 = 1.
+double stability_limit(const Mode& mode)
+{
+  const double w = mode.frequency;
+  const double d = mode.air_damping + mode.spring_damping;
+  if (w == 0.0 && d == 0.0)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  return 4.0 / (std::sqrt(d * d + 4.0 * w * w) + d);
+}
+
+}  // namespace
+
+const MethodRow symplectic_euler{ "symplectic_euler",
+                                  1,
+                                  stability_limit,
+                                  true,
+                                  1,
+                                  "neighbouring nodes swing against each other, every step further",
+                                  [] { return std::unique_ptr<Method>(new SymplecticEuler); } };
+
+}  // namespace cloth

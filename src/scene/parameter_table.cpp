@@ -1,0 +1,191 @@
+#include "cloth_sim/scene/parameter_table.h"
+
+#include <cctype>
+
+#include "cloth_sim/methods/method.h"
+#include "cloth_sim/scene/pin_selection.h"
+#include "parameter_kinds.h"
+
+namespace cloth
+{
+namespace
+{
+
+bool is_frame(const std::string& text)
+{
+  return !text.empty() && text[0] != '/';
+}
+
+bool is_ros_name(const std::string& text)
+{
+  const auto of_a_name = [](unsigned char character) { return std::isalnum(character) || character == '_'; };
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(), of_a_name);
+}
+
+Parameter<PinParams> nodes_row()
+{
+  Parameter<PinParams> parameter;
+  parameter.key = "nodes";
+  parameter.type = "list of [row, col]";
+  parameter.allowed = "a list of [row, col], integers, at least one";
+  parameter.meaning = "which nodes, instead of `at`; negative numbers count from the end";
+  parameter.set = [](const YAML::Node& value, PinParams& pin) {
+    const YAML::Node list = read_list(value);
+    for (const YAML::Node& node : list)
+    {
+      if (!node.IsSequence() || node.size() != 2)
+      {
+        throw std::invalid_argument("not a pair");
+      }
+      pin.nodes.push_back({ read_integer(node[0]), read_integer(node[1]) });
+    }
+    if (pin.nodes.empty())
+    {
+      throw std::invalid_argument("no node");
+    }
+  };
+  parameter.get = [](const PinParams& pin) {
+    std::vector<std::string> pairs;
+    for (const std::array<int, 2>& node : pin.nodes)
+    {
+      pairs.push_back("[" + std::to_string(node[0]) + ", " + std::to_string(node[1]) + "]");
+    }
+    return "[" + joined(pairs) + "]";
+  };
+  return parameter;
+}
+
+std::vector<std::string> method_words()
+{
+  std::vector<std::string> words{ "auto" };
+  for (const MethodRow& row : methods())
+  {
+    words.push_back(row.name);
+  }
+  return words;
+}
+
+Parameter<SceneParams> for_node(Parameter<SceneParams> parameter)
+{
+  parameter.node_only = true;
+  return parameter;
+}
+
+// An accessor that serves for reading and for writing.
+#define CLOTH_MEMBER(path) [](auto& target) -> auto& { return target.path; }
+
+std::vector<Parameter<SceneParams>> make_table()
+{
+  using Scene = RowsOf<SceneParams>;
+  return {
+    Scene::text("frame_id", is_frame, "a tf frame: not empty, no leading slash",
+                "the frame in which everything else is given, z up", CLOTH_MEMBER(frame_id)),
+    Scene::vector("gravity", "m/s2", any, "acceleration of a free fall", CLOTH_MEMBER(gravity)),
+
+    Scene::integer("cloth.rows", 1, 4096, "nodes down the sheet; 1 is a chain across", CLOTH_MEMBER(sheet.rows)),
+    Scene::integer("cloth.cols", 1, 4096, "nodes across the sheet; 1 is a chain down; two nodes at least in all",
+            CLOTH_MEMBER(sheet.cols)),
+    Scene::number("cloth.width", "m", positive, "at rest, between first and last column; of a chain down: its strip's width",
+           CLOTH_MEMBER(sheet.width)),
+    Scene::number("cloth.height", "m", positive, "at rest, between first and last row; of a chain across: its strip's width",
+           CLOTH_MEMBER(sheet.height)),
+    Scene::number("cloth.mass", "kg", positive, "of the whole sheet", CLOTH_MEMBER(sheet.mass)),
+    Scene::choice("cloth.mass_lumping", { "area", "uniform" }, {},
+           "how mass and area are shared out to the nodes: by tributary area, or equally as Provot does",
+           CLOTH_MEMBER(sheet.mass_lumping)),
+    Scene::vector("cloth.position", "m", any, "middle of the top edge (row 0) at the start", CLOTH_MEMBER(start.position)),
+    Scene::vector("cloth.rpy", "rad", any,
+           "roll, pitch, yaw; at zero the sheet hangs in the x-z plane, column along +x, row along -z",
+           CLOTH_MEMBER(start.rpy)),
+    Scene::vector("cloth.velocity", "m/s", any, "of every free node at time 0", CLOTH_MEMBER(start.velocity)),
+    Scene::vector("cloth.initial_stretch", "", positive, "factors on the start positions, across and down; rest lengths stay",
+           CLOTH_MEMBER(start.initial_stretch)),
+    Scene::choice("cloth.start", { "flat" }, { "catenary", "settled" }, "the shape at the start", CLOTH_MEMBER(start.shape)),
+    Scene::number("cloth.ripple", "m", any, "amplitude of a smooth asymmetric displacement along the normal at the start",
+           CLOTH_MEMBER(start.ripple)),
+
+    Scene::number("springs.structural.stiffness", "N/m", not_negative, "against stretch; 0 leaves these springs out",
+           CLOTH_MEMBER(sheet.structural.stiffness)),
+    Scene::number("springs.structural.damping", "N s/m", not_negative, "internal damping of structural springs",
+           CLOTH_MEMBER(sheet.structural.damping)),
+    Scene::number("springs.shear.stiffness", "N/m", not_negative, "against shear; 0 leaves these springs out",
+           CLOTH_MEMBER(sheet.shear.stiffness)),
+    Scene::number("springs.shear.damping", "N s/m", not_negative, "internal damping of shear springs",
+           CLOTH_MEMBER(sheet.shear.damping)),
+    Scene::number("springs.flex.stiffness", "N/m", not_negative, "against bending; 0 leaves these springs out",
+           CLOTH_MEMBER(sheet.flex.stiffness)),
+    Scene::number("springs.flex.damping", "N s/m", not_negative, "internal damping of flex springs",
+           CLOTH_MEMBER(sheet.flex.damping)),
+
+    Scene::number("strain_limit.max_strain", "", not_negative,
+           "structural and shear springs are not stretched beyond this; 0: no limit",
+           CLOTH_MEMBER(strain_limit.max_strain)),
+    Scene::integer("strain_limit.sweeps", 1, 100000, "most passes over the springs after a step",
+            CLOTH_MEMBER(strain_limit.sweeps)),
+
+    Scene::number("air.viscous_damping", "N s/m per m2", not_negative, "drag of the air at rest, in any direction",
+           CLOTH_MEMBER(air.viscous_damping)),
+    Scene::number("air.wind_coupling", "N s/m per m2", not_negative,
+           "how the air's velocity relative to the sheet acts along its normals; 0: no normals are computed",
+           CLOTH_MEMBER(air.wind_coupling)),
+    Scene::vector("air.wind", "m/s", any, "velocity of the air: the way it moves", CLOTH_MEMBER(air.wind)),
+
+    Scene::choice("solver.method", method_words(),
+           { "explicit_euler", "midpoint", "dopri5", "implicit_euler", "implicit_midpoint", "tr_bdf2", "projective",
+             "xpbd" },
+           "time-stepping method; auto is velocity_verlet", CLOTH_MEMBER(solver.method)),
+    Scene::number("solver.time_step", "s", not_negative,
+           "largest step; 0: 0.9 of the method's stability limit as the cloth deforms, 1/240 where there is no limit",
+           CLOTH_MEMBER(solver.time_step)),
+    Scene::number("solver.tolerance", "m", positive, "position error that auto may make over 1 s; not used yet",
+           CLOTH_MEMBER(solver.tolerance)),
+
+    for_node(Scene::number("rate", "Hz", Range{ 0.0, false, 1000.0 }, "ticks a second, one published mesh each",
+                    CLOTH_MEMBER(node.rate))),
+    for_node(Scene::number("real_time_factor", "", not_negative, "simulated seconds in a second; 0: as fast as it can",
+                    CLOTH_MEMBER(node.real_time_factor))),
+    for_node(Scene::choice("clock_mode", { "follow" }, { "master" }, "follow: paced by ROS time",
+                    CLOTH_MEMBER(node.clock_mode))),
+    for_node(Scene::choice("start_paused", { "false" }, { "true" }, "whether time stands still at the start",
+                    CLOTH_MEMBER(node.start_paused))),
+    for_node(Scene::choice("display.colouring", { "fabric", "strain" }, {},
+                    "colour of the mesh: the fabric's, or the strain of the springs at each node",
+                    CLOTH_MEMBER(node.colouring))),
+    for_node(Scene::vector("display.fabric_colour", "", unit_interval, "red, green, blue", CLOTH_MEMBER(node.fabric_colour))),
+  };
+}
+
+std::vector<Parameter<PinParams>> make_pin_table()
+{
+  using Pin = RowsOf<PinParams>;
+  return {
+    Pin::text("name", is_ros_name, "a ROS name: a letter, then letters, digits and _; each name once",
+              "how messages call the pin; must be given", CLOTH_MEMBER(name)),
+    Pin::choice("at", pin_places(), {}, "which nodes", CLOTH_MEMBER(at)),
+    nodes_row(),
+    Pin::vector("motion.amplitude", "m", any,
+                "A in the way A (sin(2 pi f t + phase) - sin(phase)) from where the pin starts",
+                CLOTH_MEMBER(motion.amplitude)),
+    Pin::number("motion.frequency", "Hz", not_negative, "f", CLOTH_MEMBER(motion.frequency)),
+    Pin::number("motion.phase", "rad", any, "phase", CLOTH_MEMBER(motion.phase)),
+  };
+}
+
+#undef CLOTH_MEMBER
+
+}  // namespace
+
+const std::vector<Parameter<SceneParams>>& parameter_table()
+{
+  static const std::vector<Parameter<SceneParams>> table = make_table();
+  return table;
+}
+
+const std::vector<Parameter<PinParams>>& pin_table()
+{
+  static const std::vector<Parameter<PinParams>> table = make_pin_table();
+  return table;
+}
+
+}  // namespace cloth

@@ -1,0 +1,190 @@
+#include "cloth_sim/scene/plan.h"
+
+#include <cmath>
+
+#include "cloth_sim/scene/pin_selection.h"
+#include "cloth_sim/scene/start_state.h"
+#include "cloth_sim/scene/yaml_text.h"
+
+namespace cloth
+{
+namespace
+{
+
+constexpr const char* automatic_method = "velocity_verlet";
+
+PlanLine spring_line(const SheetProperties& sheet, SpringKind kind, const SpringProperties& properties)
+{
+  PlanLine line{ std::string(name_of(kind)) + " springs", false, "stiffness is 0" };
+  if (properties.stiffness == 0.0)
+  {
+    return line;
+  }
+  int count = 0;
+  for (const SpringBatch& batch : make_sheet(sheet).springs)
+  {
+    count += batch.kind == kind ? batch.size() : 0;
+  }
+  if (count == 0)
+  {
+    line.reason = "the grid of " + std::to_string(sheet.rows) + " x " + std::to_string(sheet.cols) +
+                  " nodes has no room for one";
+    return line;
+  }
+  line.kept = true;
+  line.reason = std::to_string(count) + " of " + format_number(properties.stiffness) + " N/m" +
+                (properties.damping == 0.0 ? ", undamped" :
+                                             " and " + format_number(properties.damping) + " N s/m");
+  return line;
+}
+
+PlanLine gravity_line(const SceneParams& scene)
+{
+  const bool kept = !scene.gravity.isZero(0.0);
+  return { "gravity", kept, kept ? format_number(scene.gravity.norm()) + " m/s2" : "it is 0" };
+}
+
+PlanLine viscous_damping_line(const SceneParams& scene)
+{
+  const double coefficient = scene.air.viscous_damping;
+  return { "viscous damping", coefficient > 0.0,
+           coefficient > 0.0 ? format_number(coefficient) + " N s/m per m2" : "the coefficient is 0" };
+}
+
+PlanLine wind_line(const SceneParams& scene)
+{
+  if (scene.air.wind_coupling == 0.0)
+  {
+    return { "wind", false, "air.wind_coupling is 0; no normals are computed" };
+  }
+  if (scene.sheet.rows == 1 || scene.sheet.cols == 1)
+  {
+    return { "wind", false, "a chain has no normals" };
+  }
+  return { "wind", true,
+           format_number(scene.air.wind_coupling) + " N s/m per m2, air at " + format_number(scene.air.wind.norm()) +
+               " m/s; still air drags too" };
+}
+
+PlanLine strain_limit_line(const SceneParams& scene)
+{
+  if (scene.strain_limit.max_strain == 0.0)
+  {
+    return { "strain limit", false, "max_strain is 0" };
+  }
+  if (scene.sheet.structural.stiffness == 0.0 && scene.sheet.shear.stiffness == 0.0)
+  {
+    return { "strain limit", false, "there are no structural and no shear springs" };
+  }
+  return { "strain limit", true,
+           format_number(scene.strain_limit.max_strain) + " in at most " +
+               std::to_string(scene.strain_limit.sweeps) + " sweeps a step" };
+}
+
+PlanLine pin_line(const std::vector<Pin>& pins)
+{
+  size_t nodes = 0;
+  size_t moving = 0;
+  for (const Pin& pin : pins)
+  {
+    nodes += pin.nodes.size();
+    moving += pin.oscillation.amplitude.isZero(0.0) ? 0 : 1;
+  }
+  if (nodes == 0)
+  {
+    return { "pins", false, "the scene has none" };
+  }
+  return { "pins", true,
+           std::to_string(nodes) + " nodes in " + std::to_string(pins.size()) + " pins, " + std::to_string(moving) +
+               " of them moving" };
+}
+
+PlanLine method_line(const SceneParams& scene)
+{
+  if (scene.solver.method != "auto")
+  {
+    return { "method", true, scene.solver.method + ", as the scene says" };
+  }
+  return { "method", true,
+           std::string(automatic_method) + ", which is what auto takes; the tolerance of " +
+               format_number(scene.solver.tolerance) + " m is not used yet" };
+}
+
+}  // namespace
+
+Plan make_plan(const SceneParams& scene)
+{
+  Plan plan;
+  plan.scene = scene;
+  plan.method = find_method(scene.solver.method == "auto" ? automatic_method : scene.solver.method);
+  const ClothModel model = make_sheet(scene.sheet);
+  plan.lines = {
+    spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),
+    spring_line(scene.sheet, SpringKind::shear, scene.sheet.shear),
+    spring_line(scene.sheet, SpringKind::flex, scene.sheet.flex),
+    gravity_line(scene),
+    viscous_damping_line(scene),
+    wind_line(scene),
+    strain_limit_line(scene),
+    pin_line(pins_of(scene.pins, model, model.rest_positions)),
+    method_line(scene),
+  };
+  if (!strain_limit_line(scene).kept)
+  {
+    plan.scene.strain_limit.max_strain = 0.0;
+  }
+  return plan;
+}
+
+Simulation build_simulation(const Plan& plan)
+{
+  const SceneParams& scene = plan.scene;
+  SimulationSetup setup;
+  setup.model = make_sheet(scene.sheet);
+  setup.gravity = scene.gravity;
+  setup.air = scene.air;
+  setup.strain_limit = scene.strain_limit;
+  setup.method = plan.method;
+  setup.time_step = scene.solver.time_step;
+  setup.start = start_state(scene.start, setup.model);
+  setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
+  return Simulation(std::move(setup));
+}
+
+std::vector<std::string> describe(const Plan& plan, const Simulation& simulation)
+{
+  std::vector<std::string> lines;
+  for (const PlanLine& line : plan.lines)
+  {
+    lines.push_back(line.part + ": " + (line.kept ? "kept, " : "left out, ") + line.reason);
+  }
+  const std::string name = simulation.method().name;
+  const std::string limit = format_number(simulation.stability_limit()) + " s";
+  const std::string step = "time step: " + format_number(simulation.time_step()) + " s, ";
+  if (plan.scene.solver.time_step > 0.0)
+  {
+    lines.push_back(step + "as the scene says; the stability limit of " + name + " is " + limit);
+  }
+  else if (std::isfinite(simulation.stability_limit()))
+  {
+    lines.push_back(step + format_number(Simulation::limit_share) + " of the stability limit of " + name + ", " +
+                    limit + ", and with it as the sheet deforms");
+  }
+  else
+  {
+    lines.push_back(step + "1/240 s, since nothing here limits the step of " + name);
+  }
+  return lines;
+}
+
+std::string time_step_warning(const Simulation& simulation)
+{
+  if (simulation.time_step() <= simulation.stability_limit())
+  {
+    return {};
+  }
+  return "solver.time_step is " + format_number(simulation.time_step()) + " s, beyond the stability limit of " +
+         simulation.method().name + ", " + format_number(simulation.stability_limit()) + " s";
+}
+
+}  // namespace cloth

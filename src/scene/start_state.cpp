@@ -1,0 +1,43 @@
+#include "cloth_sim/scene/start_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace cloth
+{
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+double fraction(int index, int count)
+{
+  return static_cast<double>(index) / std::max(1, count - 1);
+}
+
+}  // namespace
+
+ClothState start_state(const StartParams& start, const ClothModel& model)
+{
+  ClothState state;
+  state.positions = model.rest_positions;
+  state.positions.col(0) *= start.initial_stretch[0];
+  state.positions.col(2) *= start.initial_stretch[1];
+  for (int i = 0; i < model.nodes(); ++i)
+  {
+    const double a = fraction(model.col_of(i), model.cols);
+    const double b = fraction(model.row_of(i), model.rows);
+    state.positions(i, 1) += start.ripple * (std::sin(2.0 * pi * a + 0.3) + 0.5 * std::sin(3.0 * pi * b + 1.1)) * b;
+  }
+  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(start.rpy[2], Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(start.rpy[1], Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(start.rpy[0], Eigen::Vector3d::UnitX()))
+                                       .toRotationMatrix();
+  state.positions = (state.positions * rotation.transpose()).rowwise() + start.position.transpose();
+  state.velocities = start.velocity.transpose().replicate(model.nodes(), 1);
+  return state;
+}
+
+}  // namespace cloth

@@ -1,0 +1,169 @@
+#include "cloth_sim/simulation/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace cloth
+{
+namespace
+{
+
+/// The step where neither the scene nor stability asks for one, s.
+constexpr double unlimited_time_step = 1.0 / 240.0;
+
+/// The fewest equal steps of at most `time_step` that make up `way`; a rounding error more does not count.
+std::uint64_t steps_for(double way, double time_step)
+{
+  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::ceil(way / time_step * (1.0 - 1e-12))));
+}
+
+}  // namespace
+
+Simulation::Simulation(SimulationSetup setup)
+  : dynamics_(std::move(setup.model), setup.gravity, setup.air)
+  , strain_limit_(dynamics_.model(), setup.strain_limit)
+  , method_row_(setup.method)
+  , given_time_step_(setup.time_step)
+  , state_(std::move(setup.start))
+{
+  if (method_row_ == nullptr)
+  {
+    throw std::invalid_argument("a simulation needs a method");
+  }
+  if (state_.positions.rows() != model().nodes() || state_.velocities.rows() != model().nodes())
+  {
+    throw std::invalid_argument("the start state must have a position and a velocity for every node");
+  }
+  method_ = method_row_->make();
+  for (const Pin& pin : setup.pins)
+  {
+    dynamics_.pins().hold(pin);
+  }
+  dynamics_.pins().impose(state_.time, state_.positions, state_.velocities);
+  changed_from_outside();
+}
+
+void Simulation::step(double h)
+{
+  const StepCost cost = method_->step(dynamics_, h, state_);
+  if (strain_limit_.active())
+  {
+    const StrainLimit::Report report = strain_limit_.apply(model(), pins(), h, state_);
+    if (report.moved)
+    {
+      method_->restart();
+    }
+    counters_.limit_sweeps += static_cast<std::uint64_t>(report.sweeps);
+  }
+  counters_.force_evaluations += static_cast<std::uint64_t>(cost.force_evaluations);
+  counters_.linear_solves += static_cast<std::uint64_t>(cost.linear_solves);
+  ++counters_.steps;
+}
+
+bool Simulation::advance_to(double time)
+{
+  double largest_step = time_step();
+  while (!divergence_ && state_.time < time)
+  {
+    const double begin = state_.time;
+    const std::uint64_t steps = steps_for(time - begin, largest_step);
+    const double h = (time - begin) / static_cast<double>(steps);
+    const std::uint64_t until_check = std::min<std::uint64_t>(steps, steps_between_checks);
+    for (std::uint64_t s = 1; s <= until_check; ++s)
+    {
+      step(h);
+      state_.time = s == steps ? time : begin + static_cast<double>(s) * h;
+    }
+    keep_or_restore();
+    if (state_.time < time)
+    {
+      largest_step = std::min(largest_step, time_step());
+    }
+  }
+  return !divergence_;
+}
+
+void Simulation::keep_or_restore()
+{
+  divergence_ = guard_.check(dynamics_, state_);
+  if (divergence_)
+  {
+    state_ = last_good_;
+    return;
+  }
+  last_good_ = state_;
+}
+
+void Simulation::changed_from_outside()
+{
+  method_->restart();
+  guard_.open(dynamics_, state_);
+  last_good_ = state_;
+}
+
+double Simulation::stability_limit() const
+{
+  return network_stability_limit(*method_row_, spectrum_.stiffest_mode(dynamics_, state_.positions));
+}
+
+double Simulation::time_step() const
+{
+  if (given_time_step_ > 0.0)
+  {
+    return given_time_step_;
+  }
+  const double limit = stability_limit();
+  return std::isfinite(limit) ? limit_share * limit : unlimited_time_step;
+}
+
+std::string Simulation::divergence_report() const
+{
+  if (!divergence_)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "diverged at " << divergence_->time << " s, first seen at node [" << model().row_of(divergence_->node)
+       << ", " << model().col_of(divergence_->node) << "]: " << divergence_->cause << "; the step was " << time_step()
+       << " s, the stability limit of " << method_row_->name << " is " << stability_limit()
+       << " s for the last good state; take a smaller solver.time_step (0: chosen from the limit) or softer springs";
+  return text.str();
+}
+
+void Simulation::set_wind(const Eigen::Vector3d& wind)
+{
+  dynamics_.air().set_wind(wind);
+  changed_from_outside();
+}
+
+void Simulation::hold(const std::string& name, const std::vector<int>& nodes)
+{
+  dynamics_.pins().hold({ name, nodes, state_.positions(nodes, Eigen::all), {}, {} });
+  dynamics_.pins().impose(state_.time, state_.positions, state_.velocities);
+  changed_from_outside();
+}
+
+bool Simulation::release(const std::string& name)
+{
+  const bool released = dynamics_.pins().release(name);
+  changed_from_outside();
+  return released;
+}
+
+void Simulation::release_all()
+{
+  dynamics_.pins().release_all();
+  changed_from_outside();
+}
+
+bool Simulation::carry(const std::string& name, const Eigen::Vector3d& target, double duration)
+{
+  const bool carried = dynamics_.pins().carry(name, target, state_.time, state_.time + duration);
+  guard_.allow_pin_motion(dynamics_);
+  return carried;
+}
+
+}  // namespace cloth

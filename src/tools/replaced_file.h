@@ -1,0 +1,34 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+namespace cloth
+{
+
+/// A file that takes the place of `path` as a whole when it is committed, or leaves what was there alone. A path that
+/// is no regular file (/dev/stdout) is written to directly.
+class ReplacedFile
+{
+public:
+  /// Throws std::runtime_error where nothing can be written beside `path`.
+  explicit ReplacedFile(const std::string& path);
+  ~ReplacedFile();
+  ReplacedFile(const ReplacedFile&) = delete;
+  ReplacedFile& operator=(const ReplacedFile&) = delete;
+
+  std::ostream& stream()
+  {
+    return stream_;
+  }
+
+  /// Throws std::runtime_error where not all could be written.
+  void commit();
+
+private:
+  std::string path_;
+  std::string written_path_;
+  std::ofstream stream_;
+};
+
+}  // namespace cloth
