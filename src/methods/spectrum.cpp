@@ -14,14 +14,8 @@ namespace cloth
 namespace
 {
 
-constexpr int iterations_from_noise = 60;
-constexpr int iterations_from_before = 3;
-/// The power iteration's eigenvalue is raised by so much.
-constexpr double margin = 1.05;
-/// So much noise is mixed into the vector kept from before, lest it miss what has become stiff elsewhere.
-constexpr double refreshment = 0.02;
-
-using Product = void (*)(const ClothModel&, const Vectors&, const Vectors&, Vectors&);
+constexpr int lanczos_steps = 16;
+constexpr double margin = 1.02;
 
 Vectors noise(int nodes)
 {
@@ -34,47 +28,61 @@ Vectors noise(int nodes)
   return vectors;
 }
 
-/// Power iteration for the largest eigenvalue of M^-1 A; the return value is the Rayleigh quotient, which is never
-/// above it.
-double rayleigh_quotient(const Dynamics& dynamics, const Vectors& positions, Product add_product, Vectors& u)
+/// The largest eigenvalue of the symmetric tridiagonal matrix that Lanczos made, and how far an eigenvalue of the
+/// whole matrix can be from it.
+double ritz_value_and_residual(const std::vector<double>& diagonal, const std::vector<double>& beside)
 {
-  const ClothModel& model = dynamics.model();
-  int iterations = iterations_from_before;
-  if (u.rows() != model.nodes())
-  {
-    u = noise(model.nodes());
-    iterations = iterations_from_noise;
-  }
-  else
-  {
-    u += refreshment / std::sqrt(model.nodes()) * noise(model.nodes());
-  }
-  dynamics.pins().clear_held(u);
-  Vectors product(model.nodes(), 3);
-  double quotient = 0.0;
-  for (int i = 0; i < iterations; ++i)
-  {
-    product.setZero();
-    add_product(model, positions, u, product);
-    dynamics.pins().clear_held(product);
-    const double mass = (u.array().square().colwise() * model.masses.array()).sum();
-    quotient = mass > 0.0 ? u.cwiseProduct(product).sum() / mass : 0.0;
-    dynamics.accelerations_of(product, u);
-    const double length = u.norm();
-    u *= length > 0.0 ? 1.0 / length : 0.0;
-  }
-  return quotient;
+  const Eigen::Index n = static_cast<Eigen::Index>(diagonal.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), n),
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), n - 1));
+  return solver.eigenvalues()[n - 1] + beside.back() * std::abs(solver.eigenvectors()(n - 1, n - 1));
 }
 
-/// Upper bounds on the largest eigenvalues of M^-1 K and M^-1 C: each spring's 6 x 6 matrix [A -A; -A A] is at most
-/// twice its diagonal blocks, so no eigenvalue exceeds 2/m_i times the largest of node i's block, sum of A.
+/// Lanczos for B = M^-1/2 K M^-1/2, which has the eigenvalues of M^-1 K.
+double lanczos_estimate(const Dynamics& dynamics, const Vectors& positions)
+{
+  const ClothModel& model = dynamics.model();
+  const Eigen::ArrayXd roots = model.masses.array().sqrt();
+  Vectors q = noise(model.nodes());
+  dynamics.pins().clear_held(q);
+  if (q.isZero(0.0))
+  {
+    return 0.0;
+  }
+  q.normalize();
+  Vectors previous = Vectors::Zero(model.nodes(), 3);
+  Vectors product(model.nodes(), 3);
+  std::vector<double> diagonal;
+  std::vector<double> beside;
+  double beta = 0.0;
+  for (int step = 0; step < lanczos_steps; ++step)
+  {
+    product.setZero();
+    add_stiffness_product(model, positions, q.array().colwise() / roots, product);
+    dynamics.pins().clear_held(product);
+    product.array().colwise() /= roots;
+    diagonal.push_back(q.cwiseProduct(product).sum());
+    product -= diagonal.back() * q + beta * previous;
+    beta = product.norm();
+    beside.push_back(beta);
+    if (beta <= 1e-12 * std::abs(diagonal.front()))
+    {
+      break;
+    }
+    previous.swap(q);
+    q = product / beta;
+  }
+  return ritz_value_and_residual(diagonal, beside);
+}
+
 struct Bounds
 {
   double stiffness = 0.0;
   double damping = 0.0;
 };
 
-Bounds upper_bounds(const Dynamics& dynamics, const Vectors& positions)
+Bounds bounds_by_blocks(const Dynamics& dynamics, const Vectors& positions)
 {
   const ClothModel& model = dynamics.model();
   std::vector<Eigen::Matrix3d> stiffness(static_cast<size_t>(model.nodes()), Eigen::Matrix3d::Zero());
@@ -90,8 +98,7 @@ Bounds upper_bounds(const Dynamics& dynamics, const Vectors& positions)
       }
       const Eigen::Matrix3d along = l * l.transpose() / (length * length);
       const double across = std::max(0.0, 1.0 - batch.rest_length / length);
-      const Eigen::Matrix3d block =
-          batch.stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
+      const Eigen::Matrix3d block = batch.stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
       for (const int node : { i, j })
       {
         stiffness[static_cast<size_t>(node)] += block;
@@ -99,8 +106,9 @@ Bounds upper_bounds(const Dynamics& dynamics, const Vectors& positions)
       }
     });
   }
-  const auto largest_eigenvalue = [](const Eigen::Matrix3d& block) {
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  const auto largest_eigenvalue = [&solver](const Eigen::Matrix3d& block) {
+    return solver.computeDirect(block, Eigen::EigenvaluesOnly).eigenvalues()[2];
   };
   Bounds bounds;
   for (int i = 0; i < model.nodes(); ++i)
@@ -115,21 +123,32 @@ Bounds upper_bounds(const Dynamics& dynamics, const Vectors& positions)
   return bounds;
 }
 
+double largest_damping_ratio(const ClothModel& model)
+{
+  double largest = 0.0;
+  for (const SpringBatch& batch : model.springs)
+  {
+    largest = std::max(largest, batch.damping / batch.stiffness);
+  }
+  return largest;
+}
+
 }  // namespace
 
-Mode Spectrum::stiffest_mode(const Dynamics& dynamics, const Vectors& positions)
+Mode stiffest_mode(const Dynamics& dynamics, const Vectors& positions)
 {
-  const Bounds bounds = upper_bounds(dynamics, positions);
-  const double stiffness = rayleigh_quotient(dynamics, positions, add_stiffness_product, stiffness_vector_);
+  const Bounds bounds = bounds_by_blocks(dynamics, positions);
+  const double stiffness = std::min(bounds.stiffness, margin * lanczos_estimate(dynamics, positions));
   Mode mode;
-  mode.frequency = std::sqrt(std::min(bounds.stiffness, margin * stiffness));
+  mode.frequency = std::sqrt(stiffness);
   mode.air_damping = dynamics.air().damping_rate(dynamics.model());
-  if (bounds.damping > 0.0)
-  {
-    const double damping = rayleigh_quotient(dynamics, positions, add_damping_product, damping_vector_);
-    mode.spring_damping = std::min(bounds.damping, margin * damping);
-  }
+  mode.spring_damping = std::min(bounds.damping, largest_damping_ratio(dynamics.model()) * stiffness);
   return mode;
+}
+
+double stiffness_bound(const Dynamics& dynamics, const Vectors& positions)
+{
+  return bounds_by_blocks(dynamics, positions).stiffness;
 }
 
 }  // namespace cloth

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cloth_sim/methods/spectrum.h"
+
 namespace cloth
 {
 namespace
@@ -100,13 +102,14 @@ void Simulation::keep_or_restore()
 void Simulation::changed_from_outside()
 {
   method_->restart();
+  stability_watch_.forget();
   guard_.open(dynamics_, state_);
   last_good_ = state_;
 }
 
 double Simulation::stability_limit() const
 {
-  return network_stability_limit(*method_row_, spectrum_.stiffest_mode(dynamics_, state_.positions));
+  return network_stability_limit(*method_row_, stiffest_mode(dynamics_, state_.positions));
 }
 
 double Simulation::time_step() const
@@ -115,7 +118,7 @@ double Simulation::time_step() const
   {
     return given_time_step_;
   }
-  const double limit = stability_limit();
+  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
   return std::isfinite(limit) ? limit_share * limit : unlimited_time_step;
 }
 
@@ -136,7 +139,8 @@ std::string Simulation::divergence_report() const
 void Simulation::set_wind(const Eigen::Vector3d& wind)
 {
   dynamics_.air().set_wind(wind);
-  changed_from_outside();
+  method_->restart();
+  guard_.open(dynamics_, state_);
 }
 
 void Simulation::hold(const std::string& name, const std::vector<int>& nodes)

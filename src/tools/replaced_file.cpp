@@ -13,6 +13,12 @@ namespace cloth
 namespace
 {
 
+/// A stream of the process or a device by its path: not to be replaced, even where it leads to a regular file.
+bool is_system_path(const std::string& path)
+{
+  return path.compare(0, 5, "/dev/") == 0 || path.compare(0, 6, "/proc/") == 0;
+}
+
 [[noreturn]] void fail(const std::string& path)
 {
   throw std::runtime_error(path + " cannot be written: " + std::strerror(errno));
@@ -28,9 +34,11 @@ ReplacedFile::ReplacedFile(const std::string& path) : path_(path), written_path_
     errno = EISDIR;
     fail(path_);
   }
-  if (!std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored))
+  const bool is_regular = !std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored);
+  if (is_regular && !is_system_path(path))
   {
-    written_path_ = path + ".part-" + std::to_string(::getpid());
+    path_ = std::filesystem::weakly_canonical(path).string();
+    written_path_ = path_ + ".part-" + std::to_string(::getpid());
   }
   stream_.open(written_path_, std::ios::trunc);
   if (!stream_)

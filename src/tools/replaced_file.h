@@ -7,7 +7,7 @@ namespace cloth
 {
 
 /// A file that takes the place of `path` as a whole when it is committed, or leaves what was there alone. A path that
-/// is no regular file (/dev/stdout) is written to directly.
+/// is no regular file, or lies in /dev or /proc (/dev/stdout), is written to directly; a link is followed.
 class ReplacedFile
 {
 public:

@@ -24,7 +24,7 @@ class StrainLimit
 {
 public:
   /// A strain this much above max_strain, relative to it, counts as reached.
-  static constexpr double tolerance = 1e-4;
+  static constexpr double tolerance = 5e-4;
 
   StrainLimit(const ClothModel& model, const StrainLimitProperties& properties);
 

@@ -10,10 +10,10 @@
 #include "cloth_sim/constraints/strain_limit.h"
 #include "cloth_sim/methods/dynamics.h"
 #include "cloth_sim/methods/method.h"
-#include "cloth_sim/methods/spectrum.h"
 #include "cloth_sim/model/cloth_state.h"
 #include "cloth_sim/simulation/divergence_guard.h"
 #include "cloth_sim/simulation/energy.h"
+#include "cloth_sim/simulation/stability_watch.h"
 
 namespace cloth
 {
@@ -90,9 +90,10 @@ public:
   /// The divergence in words: when, which node, the step and the stability limit, what to change. Empty: none.
   std::string divergence_report() const;
 
-  /// The step that is taken as the cloth is now, s: the given one, or that which follows from the stability limit.
+  /// The step that is taken as the cloth is now, s: the given one, or that which follows from the stability limit as
+  /// it was worked out last.
   double time_step() const;
-  /// The largest stable step of the cloth as it is now, s; infinite where there is none.
+  /// The largest stable step of the cloth as it is at this moment, s; infinite where there is none.
   double stability_limit() const;
 
   // Requests. The state carries on.
@@ -123,7 +124,7 @@ private:
   DivergenceGuard guard_;
   std::optional<Divergence> divergence_;
   Counters counters_;
-  mutable Spectrum spectrum_;
+  mutable StabilityWatch stability_watch_;
 };
 
 }  // namespace cloth

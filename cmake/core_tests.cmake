@@ -1,0 +1,56 @@
+# One test program a room. With ROS they are catkin's tests; the core alone has them in CTest.
+
+function(cloth_add_test room)
+  set(sources ${ARGN})
+  if(CLOTH_SIM_WITH_ROS)
+    catkin_add_gtest(test_${room} ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    target_link_libraries(test_${room} cloth_run_parts ${GTEST_MAIN_LIBRARIES})
+  else()
+    add_executable(test_${room} ${sources})
+    target_link_libraries(test_${room} cloth_run_parts GTest::gtest_main)
+    add_test(NAME ${room} COMMAND test_${room} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  endif()
+  target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+endfunction()
+
+cloth_add_test(model
+  test/model/cloth_model_test.cpp
+)
+cloth_add_test(forces
+  test/forces/air_test.cpp
+  test/forces/gravity_test.cpp
+  test/forces/springs_test.cpp
+)
+cloth_add_test(constraints
+  test/constraints/pins_test.cpp
+  test/constraints/strain_limit_test.cpp
+)
+cloth_add_test(methods
+  test/methods/exact_motion_test.cpp
+  test/methods/order_test.cpp
+  test/methods/spectrum_test.cpp
+  test/methods/stability_test.cpp
+)
+cloth_add_test(simulation
+  test/simulation/conservation_test.cpp
+  test/simulation/divergence_test.cpp
+  test/simulation/simulation_test.cpp
+  test/simulation/statics_test.cpp
+)
+cloth_add_test(scene
+  test/scene/parameter_table_test.cpp
+  test/scene/pin_selection_test.cpp
+  test/scene/plan_test.cpp
+  test/scene/scene_reader_test.cpp
+  test/scene/shipped_scenes_test.cpp
+  test/scene/start_state_test.cpp
+  test/scene/yaml_text_test.cpp
+)
+cloth_add_test(tools
+  test/tools/cloth_run_test.cpp
+  test/tools/replaced_file_test.cpp
+  test/tools/run_options_test.cpp
+)
+# cloth_run is tested as a program.
+target_compile_definitions(test_tools PRIVATE CLOTH_RUN="$<TARGET_FILE:cloth_run>")
+add_dependencies(test_tools cloth_run)
