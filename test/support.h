@@ -2,6 +2,7 @@
 
 // What tests of several rooms share.
 
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "cloth_sim/model/cloth_state.h"
 #include "cloth_sim/scene/plan.h"
 #include "cloth_sim/scene/scene_reader.h"
+#include "cloth_sim/scene/start_state.h"
 #include "cloth_sim/simulation/simulation.h"
 
 namespace cloth
@@ -23,6 +25,12 @@ inline const std::vector<std::string> shipped_scenes{ "hanging_sheet", "curtain"
 inline SceneParams shipped_scene(const std::string& name)
 {
   return read_scene(load_scene_file("config/" + name + ".yaml"));
+}
+
+/// How a failing test names the method that it was run with.
+inline void PrintTo(const MethodRow& row, std::ostream* stream)
+{
+  *stream << row.name;
 }
 
 /// Reproducible numbers in [-1, 1].

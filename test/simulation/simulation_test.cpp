@@ -1,0 +1,174 @@
+#include "cloth_sim/simulation/simulation.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "cloth_sim/forces/springs.h"
+#include "support.h"
+
+namespace cloth
+{
+namespace
+{
+
+SceneParams small_hanging_sheet()
+{
+  SceneParams scene = shipped_scene("hanging_sheet");
+  scene.sheet.rows = scene.sheet.cols = 12;
+  return scene;
+}
+
+Simulation simulation_of(const SceneParams& scene)
+{
+  return build_simulation(make_plan(scene));
+}
+
+TEST(Simulation, TakesTheFewestEqualStepsToATime)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.solver.time_step = 1e-3;
+  Simulation simulation = simulation_of(scene);
+  simulation.advance_to(0.0105);
+  EXPECT_EQ(simulation.counters().steps, 11u);
+  EXPECT_EQ(simulation.state().time, 0.0105);
+  simulation.advance_to(0.0205);
+  EXPECT_EQ(simulation.counters().steps, 21u) << "a rounding error must not make a step of its own";
+  simulation.advance_to(0.0205);
+  EXPECT_EQ(simulation.counters().steps, 21u);
+}
+
+TEST(Simulation, TakesNineTenthsOfTheLimitWhereNoStepIsGiven)
+{
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  EXPECT_DOUBLE_EQ(simulation.time_step(), 0.9 * simulation.stability_limit());
+}
+
+TEST(Simulation, TakesAFixedStepWhereThereIsNoLimit)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.sheet.structural.stiffness = scene.sheet.shear.stiffness = scene.sheet.flex.stiffness = 0.0;
+  const Simulation simulation = simulation_of(scene);
+  EXPECT_TRUE(std::isinf(simulation.stability_limit()));
+  EXPECT_DOUBLE_EQ(simulation.time_step(), 1.0 / 240.0);
+}
+
+TEST(Simulation, ShortensItsStepsAsTheSheetStiffens)
+{
+  SimulationSetup setup = springs_alone(small_sheet(), "velocity_verlet", 0.0);
+  setup.pins = { still_pin("left", { 0, 6, 12, 18, 24 }, setup.start.positions),
+                 still_pin("right", { 5, 11, 17, 23, 29 }, setup.start.positions) };
+  Simulation simulation(setup);
+  const double before = simulation.time_step();
+  simulation.carry("right", { 0.85, 0.0, -0.15 }, 0.4);
+  ASSERT_TRUE(simulation.advance_to(1.0)) << simulation.divergence_report();
+  EXPECT_GT(max_strain(simulation.model(), simulation.state().positions), 1.0);
+  EXPECT_LT(simulation.time_step(), 0.95 * before);
+  EXPECT_LE(simulation.time_step(), simulation.stability_limit());
+}
+
+TEST(Simulation, OfTheSameSceneHasTheSameBits)
+{
+  Simulation one = simulation_of(small_hanging_sheet());
+  Simulation other = simulation_of(small_hanging_sheet());
+  for (int k = 1; k <= 30; ++k)
+  {
+    one.advance_to(0.0333 * k);
+    other.advance_to(0.0333 * k);
+  }
+  EXPECT_EQ(one.state().positions, other.state().positions);
+  EXPECT_EQ(one.state().velocities, other.state().velocities);
+}
+
+TEST(Simulation, LeavesTheLimitAloneWhereItIsOff)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.strain_limit.max_strain = 0.0;
+  Simulation simulation = simulation_of(scene);
+  simulation.advance_to(1.0);
+  EXPECT_EQ(simulation.counters().limit_sweeps, 0u);
+}
+
+TEST(Simulation, CountsTheForceEvaluationsThatTheTableClaims)
+{
+  for (const MethodRow& row : methods())
+  {
+    SceneParams scene = small_hanging_sheet();
+    scene.strain_limit.max_strain = 0.0;
+    scene.solver.method = row.name;
+    Simulation simulation = simulation_of(scene);
+    simulation.advance_to(0.5);
+    const double a_step = static_cast<double>(simulation.counters().force_evaluations) / simulation.counters().steps;
+    EXPECT_NEAR(a_step, row.force_evaluations, 0.1) << row.name;
+  }
+}
+
+TEST(Simulation, HoldsNodesWhereTheyAreAndLetsThemGo)
+{
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  simulation.advance_to(0.3);
+  const Eigen::RowVector3d held = simulation.state().positions.row(140);
+  simulation.hold("hand", { 140 });
+  simulation.advance_to(0.6);
+  EXPECT_EQ(simulation.state().positions.row(140), held);
+  EXPECT_TRUE(simulation.release("hand"));
+  EXPECT_FALSE(simulation.release("hand"));
+  simulation.advance_to(0.9);
+  EXPECT_GT((simulation.state().positions.row(140) - held).norm(), 1e-3);
+}
+
+TEST(Simulation, CarriesAPinWithinTheTimeGiven)
+{
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  ASSERT_TRUE(simulation.carry("left", { -0.3, 0.2, 1.6 }, 0.1));
+  EXPECT_FALSE(simulation.carry("nobody", { 0.0, 0.0, 0.0 }, 0.1));
+  simulation.advance_to(0.1);
+  EXPECT_TRUE(simulation.state().positions.row(0).isApprox(Eigen::RowVector3d(-0.3, 0.2, 1.6), 1e-12));
+}
+
+TEST(Simulation, WindSetOnTheWayBlowsFromThenOn)
+{
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  simulation.advance_to(1.0);
+  const double before = simulation.state().positions.col(1).mean();
+  simulation.set_wind({ 0.0, 4.0, 0.0 });
+  simulation.advance_to(2.0);
+  EXPECT_GT(simulation.state().positions.col(1).mean(), before + 0.1);
+}
+
+TEST(Simulation, OscillatingPinsAreWhereTheFormulaPutsThem)
+{
+  for (const MethodRow& row : methods())
+  {
+    SceneParams scene = small_hanging_sheet();
+    scene.solver.method = row.name;
+    scene.pins[1].motion = { { 0.05, 0.1, 0.0 }, 1.5, 0.7 };
+    Simulation simulation = simulation_of(scene);
+    const Eigen::Vector3d start = simulation.state().positions.row(11);
+    simulation.advance_to(0.77);
+    const Eigen::Vector3d exact = start + scene.pins[1].motion.displacement(0.77);
+    EXPECT_TRUE(simulation.state().positions.row(11).transpose().isApprox(exact, 1e-14)) << row.name;
+    EXPECT_TRUE(simulation.state().velocities.row(11).transpose().isApprox(scene.pins[1].motion.velocity(0.77), 1e-12))
+        << row.name;
+  }
+}
+
+TEST(Simulation, WithoutAMethodOrWithAStartThatDoesNotFitIsRefused)
+{
+  EXPECT_THROW(Simulation(springs_alone(small_sheet(), "no_such_method", 0.0)), std::invalid_argument);
+  SimulationSetup setup = springs_alone(small_sheet(), "rk4", 0.0);
+  setup.start.velocities.resize(3, 3);
+  EXPECT_THROW(Simulation{ setup }, std::invalid_argument);
+}
+
+TEST(Simulation, RunsALargeSheet)
+{
+  SceneParams scene = shipped_scene("hanging_sheet");
+  scene.sheet.rows = scene.sheet.cols = 128;
+  Simulation simulation = simulation_of(scene);
+  EXPECT_TRUE(simulation.advance_to(0.1)) << simulation.divergence_report();
+}
+
+}  // namespace
+}  // namespace cloth
