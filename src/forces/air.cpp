@@ -26,12 +26,18 @@ void Air::add_forces(const ClothModel& model, const Vectors& positions, const Ve
   {
     return;
   }
+  find_normal_speeds(model, positions, velocities);
+  normal_speeds_ *= properties_.wind_coupling * model.areas.array();
+  forces.array() += normals_.array().colwise() * normal_speeds_;
+}
+
+void Air::find_normal_speeds(const ClothModel& model, const Vectors& positions, const Vectors& velocities) const
+{
   node_normals(model, positions, normals_);
-  const Eigen::RowVector3d wind = properties_.wind.transpose();
-  for (int i = 0; i < model.nodes(); ++i)
+  normal_speeds_.setZero(model.nodes());
+  for (int d = 0; d < 3; ++d)
   {
-    const double normal_speed = normals_.row(i).dot(wind - velocities.row(i));
-    forces.row(i) += properties_.wind_coupling * model.areas[i] * normal_speed * normals_.row(i);
+    normal_speeds_ += normals_.col(d).array() * (properties_.wind[d] - velocities.col(d).array());
   }
 }
 
@@ -51,15 +57,11 @@ void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, dou
   {
     return;
   }
-  node_normals(model, positions, normals_);
-  const Eigen::RowVector3d wind = properties_.wind.transpose();
-  for (int i = 0; i < model.nodes(); ++i)
-  {
-    const double coupled = h * properties_.wind_coupling * model.areas[i];
-    const double inertia = model.masses[i] + h * properties_.viscous_damping * model.areas[i];
-    const double normal_speed = normals_.row(i).dot(wind - velocities.row(i));
-    velocities.row(i) += coupled / (inertia + coupled) * normal_speed * normals_.row(i);
-  }
+  find_normal_speeds(model, positions, velocities);
+  const auto coupled = h * properties_.wind_coupling * model.areas.array();
+  const auto inertia = model.masses.array() + h * properties_.viscous_damping * model.areas.array();
+  normal_speeds_ *= coupled / (inertia + coupled);
+  velocities.array() += normals_.array().colwise() * normal_speeds_;
 }
 
 double Air::damping_rate(const ClothModel& model) const

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/Geometry>
-
 namespace cloth
 {
 namespace
@@ -131,6 +129,52 @@ Vectors lay_out_nodes(const SheetProperties& sheet)
   return positions;
 }
 
+/// The area vectors of some quads side by side: (x_b - x_c) x (x_d - x_a), a b above c d. Kept in an array of its
+/// own, so that the loops over it vectorise.
+class QuadRow
+{
+public:
+  static constexpr int length = 128;
+
+  /// `first` is the upper left corner of the first quad, `cols` further on is the row below.
+  QuadRow(const Vectors& positions, int first, int cols, int quads)
+  {
+    const double* const x = positions.col(0).data() + first;
+    const double* const y = positions.col(1).data() + first;
+    const double* const z = positions.col(2).data() + first;
+    for (int q = 0; q < quads; ++q)
+    {
+      const double rising_x = x[q + 1] - x[q + cols];
+      const double rising_y = y[q + 1] - y[q + cols];
+      const double rising_z = z[q + 1] - z[q + cols];
+      const double falling_x = x[q + cols + 1] - x[q];
+      const double falling_y = y[q + cols + 1] - y[q];
+      const double falling_z = z[q + cols + 1] - z[q];
+      areas_[0][q] = rising_y * falling_z - rising_z * falling_y;
+      areas_[1][q] = rising_z * falling_x - rising_x * falling_z;
+      areas_[2][q] = rising_x * falling_y - rising_y * falling_x;
+    }
+  }
+
+  void add_to_corners(int first, int cols, int quads, Vectors& sums) const
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (const int corner : { 0, 1, cols, cols + 1 })
+      {
+        double* const sum = sums.col(axis).data() + first + corner;
+        for (int q = 0; q < quads; ++q)
+        {
+          sum[q] += areas_[axis][q];
+        }
+      }
+    }
+  }
+
+private:
+  double areas_[3][length];
+};
+
 }  // namespace
 
 ClothModel make_sheet(const SheetProperties& sheet)
@@ -171,25 +215,23 @@ void node_normals(const ClothModel& model, const Vectors& positions, Vectors& no
   normals.setZero(model.nodes(), 3);
   for (int r = 0; r + 1 < model.rows; ++r)
   {
-    for (int c = 0; c + 1 < model.cols; ++c)
+    for (int c = 0; c + 1 < model.cols; c += QuadRow::length)
     {
-      const int a = model.node(r, c);
-      const int b = a + 1;
-      const int lower_left = model.node(r + 1, c);
-      const int lower_right = lower_left + 1;
-      const Eigen::RowVector3d rising = positions.row(b) - positions.row(lower_left);
-      const Eigen::RowVector3d falling = positions.row(lower_right) - positions.row(a);
-      const Eigen::RowVector3d area = rising.cross(falling);
-      for (const int corner : { a, b, lower_left, lower_right })
-      {
-        normals.row(corner) += area;
-      }
+      const int quads = std::min(QuadRow::length, model.cols - 1 - c);
+      const QuadRow areas(positions, model.node(r, c), model.cols, quads);
+      areas.add_to_corners(model.node(r, c), model.cols, quads, normals);
     }
   }
+  double* const x = normals.col(0).data();
+  double* const y = normals.col(1).data();
+  double* const z = normals.col(2).data();
   for (int i = 0; i < model.nodes(); ++i)
   {
-    const double length = normals.row(i).norm();
-    normals.row(i) *= length > 0.0 ? 1.0 / length : 0.0;
+    const double squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+    const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
+    x[i] *= inverse;
+    y[i] *= inverse;
+    z[i] *= inverse;
   }
 }
 

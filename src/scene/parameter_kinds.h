@@ -35,6 +35,7 @@ struct Range
     return std::isfinite(value) && (low_included ? value >= low : value > low) && value <= high;
   }
 
+  /// " >= 0.0"; empty where any finite number will do.
   std::string in_words() const
   {
     std::string words;
@@ -46,7 +47,7 @@ struct Range
     {
       words += (words.empty() ? " <= " : " and <= ") + format_number(high);
     }
-    return words.empty() ? " that is finite" : words;
+    return words;
   }
 };
 
@@ -69,7 +70,8 @@ inline int read_integer(const YAML::Node& value)
 {
   const std::string text = value.IsScalar() ? value.Scalar() : std::string();
   const char* const end = text.data() + text.size();
-  const char* const begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
+  const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* const begin = text.data() + (has_plus ? 1 : 0);
   int number = 0;
   const std::from_chars_result result = std::from_chars(begin, end, number);
   if (result.ec != std::errc() || result.ptr != end)
@@ -155,7 +157,8 @@ struct RowsOf
     parameter.key = key;
     parameter.type = "number";
     parameter.unit = unit;
-    parameter.allowed = "a number" + range.in_words();
+    const std::string bounds = range.in_words();
+    parameter.allowed = bounds.empty() ? "a finite number" : "a number" + bounds;
     parameter.meaning = meaning;
     parameter.set = [=](const YAML::Node& value, Target& target) {
       const double number = read_number(value);
@@ -177,7 +180,10 @@ struct RowsOf
     parameter.key = key;
     parameter.type = "list of " + std::to_string(size) + " numbers";
     parameter.unit = unit;
-    parameter.allowed = "a list of " + std::to_string(size) + " numbers, each" + range.in_words();
+    const std::string bounds = range.in_words();
+    const std::string count = std::to_string(size);
+    parameter.allowed =
+        bounds.empty() ? "a list of " + count + " finite numbers" : "a list of " + count + " numbers, each" + bounds;
     parameter.meaning = meaning;
     parameter.set = [=](const YAML::Node& value, Target& target) {
       const YAML::Node list = read_list(value);

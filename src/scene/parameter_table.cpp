@@ -31,19 +31,20 @@ Parameter<PinParams> nodes_row()
   parameter.allowed = "a list of [row, col], integers, at least one";
   parameter.meaning = "which nodes, instead of `at`; negative numbers count from the end";
   parameter.set = [](const YAML::Node& value, PinParams& pin) {
-    const YAML::Node list = read_list(value);
-    for (const YAML::Node& node : list)
+    std::vector<std::array<int, 2>> nodes;
+    for (const YAML::Node& node : read_list(value))
     {
       if (!node.IsSequence() || node.size() != 2)
       {
         throw std::invalid_argument("not a pair");
       }
-      pin.nodes.push_back({ read_integer(node[0]), read_integer(node[1]) });
+      nodes.push_back({ read_integer(node[0]), read_integer(node[1]) });
     }
-    if (pin.nodes.empty())
+    if (nodes.empty())
     {
       throw std::invalid_argument("no node");
     }
+    pin.nodes = nodes;
   };
   parameter.get = [](const PinParams& pin) {
     std::vector<std::string> pairs;

@@ -1,6 +1,7 @@
 #include "cloth_sim/scene/scene_reader.h"
 
 #include <algorithm>
+#include <ios>
 #include <set>
 
 #include "cloth_sim/scene/parameter_table.h"
@@ -56,6 +57,10 @@ private:
       {
         faults_.push_back(full_name(key) + " is there twice; allowed: once");
       }
+      else if (key.find('.', path.size()) != std::string::npos)
+      {
+        add_unknown(key, path);
+      }
       else if (key != list_key_)
       {
         read_entry(key, path, entry.second, target);
@@ -78,6 +83,11 @@ private:
         return;
       }
     }
+    add_unknown(key, path);
+  }
+
+  void add_unknown(const std::string& key, const std::string& path)
+  {
     faults_.push_back(full_name(key) + " is not a key; allowed in " + full_name(path) + ": " + keys_below(path));
   }
 
@@ -116,8 +126,12 @@ private:
     std::vector<std::string> keys;
     for (const Parameter<Target>& parameter : table_)
     {
+      if (!begins_with(parameter.key, path))
+      {
+        continue;
+      }
       const std::string key = parameter.key.substr(path.size(), parameter.key.find('.', path.size()) - path.size());
-      if (begins_with(parameter.key, path) && (keys.empty() || keys.back() != key))
+      if (keys.empty() || keys.back() != key)
       {
         keys.push_back(key);
       }
@@ -182,6 +196,38 @@ std::vector<PinParams> read_pins(const YAML::Node& value, std::vector<std::strin
   return pins;
 }
 
+/// Sets what `key` names from its character `begin` on. The maps on the way are copied: one that YAML shares between
+/// two keys changes at one of them only.
+void set_below(YAML::Node& tree, const std::string& key, size_t begin, const YAML::Node& value)
+{
+  if (tree.IsDefined() && !tree.IsNull() && !tree.IsMap())
+  {
+    const std::string name = begin == 0 ? "the scene" : key.substr(0, begin - 1);
+    throw SceneError(key + " cannot be set: " + name + " is " + shown(tree) + ", not a map");
+  }
+  const size_t dot = key.find('.', begin);
+  const std::string word = key.substr(begin, dot - begin);
+  YAML::Node replaced = value;
+  if (dot != std::string::npos)
+  {
+    replaced.reset(tree.IsMap() && tree[word] ? tree[word] : YAML::Node());
+    set_below(replaced, key, dot + 1, value);
+  }
+  YAML::Node copy(YAML::NodeType::Map);
+  bool is_set = false;
+  for (const auto& entry : tree)
+  {
+    const bool is_it = !is_set && entry.first.IsScalar() && entry.first.Scalar() == word;
+    copy.force_insert(entry.first, is_it ? replaced : entry.second);
+    is_set = is_set || is_it;
+  }
+  if (!is_set)
+  {
+    copy.force_insert(word, replaced);
+  }
+  tree.reset(copy);
+}
+
 }  // namespace
 
 SceneError::SceneError(const std::vector<std::string>& faults)
@@ -219,9 +265,10 @@ SceneParams read_scene(const YAML::Node& tree)
 
 YAML::Node load_scene_file(const std::string& path)
 {
+  std::vector<YAML::Node> documents;
   try
   {
-    return YAML::LoadFile(path);
+    documents = YAML::LoadAllFromFile(path);
   }
   catch (const YAML::BadFile&)
   {
@@ -231,6 +278,15 @@ YAML::Node load_scene_file(const std::string& path)
   {
     throw SceneError(path + " is no YAML: " + error.what());
   }
+  catch (const std::ios_base::failure&)
+  {
+    throw SceneError(path + " cannot be read; allowed: a file");
+  }
+  if (documents.size() > 1)
+  {
+    throw SceneError(path + " holds " + std::to_string(documents.size()) + " YAML documents; allowed: one");
+  }
+  return documents.empty() ? YAML::Node() : documents.front();
 }
 
 void override_key(YAML::Node& tree, const std::string& key, const std::string& value)
@@ -244,18 +300,7 @@ void override_key(YAML::Node& tree, const std::string& key, const std::string& v
   {
     throw SceneError(key + " is " + value + ", which is no YAML: " + error.what());
   }
-  YAML::Node map = tree;
-  size_t begin = 0;
-  for (size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin))
-  {
-    map.reset(map[key.substr(begin, dot - begin)]);
-    begin = dot + 1;
-    if (map.IsDefined() && !map.IsNull() && !map.IsMap())
-    {
-      throw SceneError(key + " cannot be set: " + key.substr(0, dot) + " is " + shown(map) + ", not a map");
-    }
-  }
-  map[key.substr(begin)] = parsed;
+  set_below(tree, key, 0, parsed);
 }
 
 }  // namespace cloth

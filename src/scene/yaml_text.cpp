@@ -29,6 +29,10 @@ std::string format_number(double value)
 
 std::string shown(const YAML::Node& value)
 {
+  if (!value.IsDefined() || value.IsNull())
+  {
+    return "~";
+  }
   YAML::Emitter emitter;
   emitter.SetSeqFormat(YAML::Flow);
   emitter.SetMapFormat(YAML::Flow);

@@ -46,9 +46,12 @@ public:
 
 private:
   bool needs_normals(const ClothModel& model) const;
+  /// The normals, and n . (u - v) of every node.
+  void find_normal_speeds(const ClothModel& model, const Vectors& positions, const Vectors& velocities) const;
 
   AirProperties properties_;
   mutable Vectors normals_;
+  mutable Eigen::ArrayXd normal_speeds_;
 };
 
 }  // namespace cloth
