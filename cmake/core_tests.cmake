@@ -38,6 +38,7 @@ cloth_add_test(simulation
   test/simulation/statics_test.cpp
 )
 cloth_add_test(scene
+  test/scene/parameter_page_test.cpp
   test/scene/parameter_table_test.cpp
   test/scene/pin_selection_test.cpp
   test/scene/plan_test.cpp
@@ -47,6 +48,7 @@ cloth_add_test(scene
   test/scene/yaml_text_test.cpp
 )
 cloth_add_test(tools
+  test/tools/cloth_run_output_test.cpp
   test/tools/cloth_run_test.cpp
   test/tools/replaced_file_test.cpp
   test/tools/run_options_test.cpp

@@ -29,9 +29,14 @@ struct Range
   double low;
   bool low_included;
   double high = infinity;
+  bool or_zero = false;
 
   bool contains(double value) const
   {
+    if (or_zero && value == 0.0)
+    {
+      return true;
+    }
     return std::isfinite(value) && (low_included ? value >= low : value > low) && value <= high;
   }
 
@@ -47,7 +52,7 @@ struct Range
     {
       words += (words.empty() ? " <= " : " and <= ") + format_number(high);
     }
-    return words;
+    return words + (or_zero ? ", or 0" : "");
   }
 };
 

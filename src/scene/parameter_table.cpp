@@ -136,7 +136,7 @@ std::vector<Parameter<SceneParams>> make_table()
            { "explicit_euler", "midpoint", "dopri5", "implicit_euler", "implicit_midpoint", "tr_bdf2", "projective",
              "xpbd" },
            "time-stepping method; auto is velocity_verlet", CLOTH_MEMBER(solver.method)),
-    Scene::number("solver.time_step", "s", not_negative,
+    Scene::number("solver.time_step", "s", Range{ 1e-9, true, infinity, true },
            "largest step; 0: 0.9 of the method's stability limit as the cloth deforms, 1/240 where there is no limit",
            CLOTH_MEMBER(solver.time_step)),
     Scene::number("solver.tolerance", "m", positive, "position error that auto may make over 1 s; not used yet",

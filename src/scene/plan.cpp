@@ -81,6 +81,11 @@ PlanLine strain_limit_line(const SceneParams& scene)
                std::to_string(scene.strain_limit.sweeps) + " sweeps a step" };
 }
 
+std::string counted(size_t number, const std::string& noun)
+{
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
+
 PlanLine pin_line(const std::vector<Pin>& pins)
 {
   size_t nodes = 0;
@@ -95,8 +100,7 @@ PlanLine pin_line(const std::vector<Pin>& pins)
     return { "pins", false, "the scene has none" };
   }
   return { "pins", true,
-           std::to_string(nodes) + " nodes in " + std::to_string(pins.size()) + " pins, " + std::to_string(moving) +
-               " of them moving" };
+           counted(nodes, "node") + " in " + counted(pins.size(), "pin") + ", " + std::to_string(moving) + " of them moving" };
 }
 
 PlanLine method_line(const SceneParams& scene)

@@ -19,7 +19,8 @@ constexpr double unlimited_time_step = 1.0 / 240.0;
 /// The fewest equal steps of at most `time_step` that make up `way`; a rounding error more does not count.
 std::uint64_t steps_for(double way, double time_step)
 {
-  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::ceil(way / time_step * (1.0 - 1e-12))));
+  constexpr double most = 1e18;  // never done, but a number
+  return static_cast<std::uint64_t>(std::clamp(std::ceil(way / time_step * (1.0 - 1e-12)), 1.0, most));
 }
 
 }  // namespace
@@ -60,6 +61,7 @@ void Simulation::step(double h)
     }
     counters_.limit_sweeps += static_cast<std::uint64_t>(report.sweeps);
   }
+  last_step_ = h;
   counters_.force_evaluations += static_cast<std::uint64_t>(cost.force_evaluations);
   counters_.linear_solves += static_cast<std::uint64_t>(cost.linear_solves);
   ++counters_.steps;
@@ -130,7 +132,7 @@ std::string Simulation::divergence_report() const
   }
   std::ostringstream text;
   text << "diverged at " << divergence_->time << " s, first seen at node [" << model().row_of(divergence_->node)
-       << ", " << model().col_of(divergence_->node) << "]: " << divergence_->cause << "; the step was " << time_step()
+       << ", " << model().col_of(divergence_->node) << "]: " << divergence_->cause << "; the step was " << last_step_
        << " s, the stability limit of " << method_row_->name << " is " << stability_limit()
        << " s for the last good state; take a smaller solver.time_step (0: chosen from the limit) or softer springs";
   return text.str();

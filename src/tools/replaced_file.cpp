@@ -1,5 +1,7 @@
 #include "replaced_file.h"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -21,7 +23,24 @@ bool is_system_path(const std::string& path)
 
 [[noreturn]] void fail(const std::string& path)
 {
-  throw std::runtime_error(path + " cannot be written: " + std::strerror(errno));
+  throw std::runtime_error(path + " cannot be written" + (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+}
+
+// What a signal handler may read: atomic pointers that need no lock.
+std::array<std::atomic<const char*>, 8> uncommitted_paths{};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+/// The first place that holds `from` holds `to` afterwards.
+void exchange_path(const char* from, const char* to)
+{
+  for (std::atomic<const char*>& path : uncommitted_paths)
+  {
+    const char* expected = from;
+    if (path.compare_exchange_strong(expected, to))
+    {
+      return;
+    }
+  }
 }
 
 }  // namespace
@@ -39,34 +58,50 @@ ReplacedFile::ReplacedFile(const std::string& path) : path_(path), written_path_
   {
     path_ = std::filesystem::weakly_canonical(path).string();
     written_path_ = path_ + ".part-" + std::to_string(::getpid());
+    exchange_path(nullptr, written_path_.c_str());
   }
   stream_.open(written_path_, std::ios::trunc);
   if (!stream_)
   {
+    exchange_path(written_path_.c_str(), nullptr);
     fail(path_);
   }
 }
 
 ReplacedFile::~ReplacedFile()
 {
-  if (stream_.is_open() && written_path_ != path_)
+  if (stream_.is_open() && is_beside_its_path())
   {
     std::remove(written_path_.c_str());
   }
+  exchange_path(written_path_.c_str(), nullptr);
 }
 
 void ReplacedFile::commit()
 {
+  errno = 0;
   stream_.flush();
   if (!stream_)
   {
     fail(path_);
   }
-  if (written_path_ != path_ && std::rename(written_path_.c_str(), path_.c_str()) != 0)
+  if (is_beside_its_path() && std::rename(written_path_.c_str(), path_.c_str()) != 0)
   {
     fail(path_);
   }
   stream_.close();
+}
+
+void ReplacedFile::remove_uncommitted() noexcept
+{
+  for (const std::atomic<const char*>& path : uncommitted_paths)
+  {
+    const char* const written = path.load();
+    if (written != nullptr)
+    {
+      ::unlink(written);
+    }
+  }
 }
 
 }  // namespace cloth

@@ -25,7 +25,15 @@ public:
   /// Throws std::runtime_error where not all could be written.
   void commit();
 
+  /// Removes what every file not yet committed has written beside its path. For signal handlers that end the program.
+  static void remove_uncommitted() noexcept;
+
 private:
+  bool is_beside_its_path() const
+  {
+    return written_path_ != path_;
+  }
+
   std::string path_;
   std::string written_path_;
   std::ofstream stream_;

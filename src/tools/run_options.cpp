@@ -61,7 +61,7 @@ RunOptions parse_run_options(int argc, char** argv)
   RunOptions options;
   opterr = 0;
   optind = 0;
-  for (int letter = 0; (letter = getopt_long(argc, argv, ":h", known, nullptr)) != -1;)
+  for (int letter = 0; (letter = getopt_long_only(argc, argv, ":h", known, nullptr)) != -1;)
   {
     switch (letter)
     {
@@ -95,6 +95,10 @@ RunOptions parse_run_options(int argc, char** argv)
   if (!options.help && optind + 1 != argc)
   {
     throw UsageError("one scene file is needed, " + std::to_string(argc - optind) + " were given");
+  }
+  if (!options.output_file.empty() && options.output_file == options.summary_file)
+  {
+    throw UsageError("--output and --summary are both " + options.output_file + "; allowed: two files");
   }
   options.scene_file = optind < argc ? argv[optind] : "";
   return options;

@@ -70,6 +70,18 @@ TEST_P(Divergence, ReportSaysWhenWhereTheLimitAndWhatToChange)
   }
 }
 
+TEST_P(Divergence, ReportGivesTheStepThatWasTakenAndNotALongerOneThatWasAllowed)
+{
+  SceneParams scene = scene_beyond_the_limit(GetParam().name, 3.0);
+  scene.solver.time_step = 1.0;
+  Simulation simulation = build_simulation(make_plan(scene));
+  for (int k = 1; simulation.advance_to(0.03 * k); ++k)
+  {
+  }
+  EXPECT_NE(simulation.divergence_report().find("the step was 0.03 s"), std::string::npos)
+      << simulation.divergence_report();
+}
+
 class ShippedSceneGuarded : public testing::TestWithParam<std::string>
 {
 };

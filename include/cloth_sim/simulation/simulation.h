@@ -119,6 +119,7 @@ private:
   const MethodRow* method_row_;
   std::unique_ptr<Method> method_;
   double given_time_step_;
+  double last_step_ = 0.0;
   ClothState state_;
   ClothState last_good_;
   DivergenceGuard guard_;

@@ -1,0 +1,148 @@
+#include "cloth_sim/scene/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth_sim/scene/yaml_text.h"
+#include "scene/scene_text.h"
+
+namespace cloth
+{
+namespace
+{
+
+const char* const four_by_five = "cloth: {rows: 4, cols: 5}";
+
+std::vector<std::string> lines_of(const std::string& yaml)
+{
+  const Plan plan = make_plan(scene_of("{" + yaml + "}"));
+  return describe(plan, build_simulation(plan));
+}
+
+/// The one line that begins with the part's name.
+std::string line_of(const std::string& part, const std::string& yaml)
+{
+  std::string found;
+  for (const std::string& line : lines_of(yaml))
+  {
+    if (line.compare(0, part.size() + 2, part + ": ") == 0)
+    {
+      EXPECT_EQ(found, "") << part << " is there twice";
+      found = line;
+    }
+  }
+  return found;
+}
+
+TEST(Plan, KeepsWhatActsAndCountsIt)
+{
+  const std::string yaml = std::string(four_by_five) + ", springs: {structural: {stiffness: 50, damping: 0}}";
+  EXPECT_EQ(line_of("structural springs", yaml), "structural springs: kept, 31 of 50.0 N/m, undamped");
+  EXPECT_EQ(line_of("shear springs", yaml), "shear springs: kept, 24 of 100.0 N/m and 0.01 N s/m");
+  EXPECT_EQ(line_of("flex springs", yaml), "flex springs: kept, 22 of 10.0 N/m, undamped");
+  EXPECT_EQ(line_of("gravity", yaml), "gravity: kept, 9.81 m/s2");
+  EXPECT_EQ(line_of("viscous damping", yaml), "viscous damping: kept, 0.3 N s/m per m2");
+  EXPECT_TRUE(has(line_of("wind", yaml), { "wind: kept, 1.0 N s/m per m2, air at 0.0 m/s" }));
+  EXPECT_EQ(line_of("strain limit", yaml), "strain limit: kept, 0.1 in at most 30 sweeps a step");
+  EXPECT_TRUE(has(line_of("pins", yaml), { "pins: kept, 2 nodes in 2 pins, 0 " }));
+  EXPECT_TRUE(has(line_of("pins", "pins: [{name: a, at: border, motion: {amplitude: [0, 0, 1], frequency: 1}}]"),
+                  { "124 nodes in 1 pin, 1 of them moving" }));
+}
+
+TEST(Plan, LeavesOutWhatCannotActAndSaysWhy)
+{
+  const auto is = [](const std::string& part, const std::string& yaml, const std::string& reason) {
+    EXPECT_EQ(line_of(part, yaml), part + ": left out, " + reason);
+  };
+  is("structural springs", "springs: {structural: {stiffness: 0}}", "stiffness is 0");
+  is("shear springs", "springs: {shear: {stiffness: 0}}", "stiffness is 0");
+  is("flex springs", "springs: {flex: {stiffness: 0}}", "stiffness is 0");
+  is("shear springs", "cloth: {rows: 5, cols: 1}", "the grid of 5 x 1 nodes has no room for one");
+  is("flex springs", "cloth: {rows: 2, cols: 2}", "the grid of 2 x 2 nodes has no room for one");
+  is("gravity", "gravity: [0, 0, 0]", "it is 0");
+  is("viscous damping", "air: {viscous_damping: 0}", "the coefficient is 0");
+  is("wind", "air: {wind_coupling: 0, wind: [1, 0, 0]}", "air.wind_coupling is 0; no normals are computed");
+  is("wind", "cloth: {rows: 5, cols: 1}", "a chain has no normals");
+  is("wind", "cloth: {rows: 1, cols: 5}", "a chain has no normals");
+  is("strain limit", "strain_limit: {max_strain: 0}", "max_strain is 0");
+  is("strain limit", "springs: {structural: {stiffness: 0}, shear: {stiffness: 0}}",
+     "there are no structural and no shear springs");
+  is("pins", "pins: []", "the scene has none");
+}
+
+TEST(Plan, DoesNotRunWhatItLeavesOut)
+{
+  const Plan plan = make_plan(scene_of("springs: {structural: {stiffness: 0}, shear: {stiffness: 0}}"));
+  EXPECT_EQ(plan.scene.strain_limit.max_strain, 0.0);
+  EXPECT_EQ(make_plan(scene_of("")).scene.strain_limit.max_strain, 0.1);
+}
+
+TEST(Plan, HasALineForEveryPartOnceAndInOrder)
+{
+  const std::vector<std::string> parts{
+    "structural springs", "shear springs", "flex springs", "gravity",  "viscous damping", "wind",
+    "strain limit",       "pins",          "method",       "time step"
+  };
+  const std::vector<std::string> lines = lines_of(four_by_five);
+  ASSERT_EQ(lines.size(), parts.size());
+  for (size_t i = 0; i < parts.size(); ++i)
+  {
+    EXPECT_EQ(lines[i].substr(0, lines[i].find(':')), parts[i]);
+  }
+}
+
+TEST(Plan, TakesVelocityVerletForAutoAndSaysThatTheToleranceIsNotUsed)
+{
+  EXPECT_EQ(make_plan(scene_of("")).method, find_method("velocity_verlet"));
+  EXPECT_EQ(line_of("method", "solver: {tolerance: 0.25}"),
+            "method: kept, velocity_verlet, which is what auto takes; the tolerance of 0.25 m is not used yet");
+}
+
+TEST(Plan, TakesEveryMethodThatIsNamed)
+{
+  for (const MethodRow& method : methods())
+  {
+    const std::string yaml = std::string(four_by_five) + ", solver: {method: " + method.name + "}";
+    EXPECT_EQ(make_plan(scene_of("{" + yaml + "}")).method, &method);
+    EXPECT_EQ(line_of("method", yaml), std::string("method: kept, ") + method.name + ", as the scene says");
+  }
+}
+
+TEST(Plan, SaysWhichStepIsTakenAndWhy)
+{
+  const Plan plan = make_plan(scene_of(std::string("{") + four_by_five + "}"));
+  const Simulation simulation = build_simulation(plan);
+  const std::string step = describe(plan, simulation).back();
+  EXPECT_TRUE(has(step, { "time step: ", " s, 0.9 of the stability limit of velocity_verlet, " }));
+  const YAML::Node number = YAML::Load(step.substr(11, step.find(" s,") - 11));
+  EXPECT_NEAR(number.as<double>(), 0.9 * simulation.stability_limit(), 1e-4 * number.as<double>());
+
+  EXPECT_TRUE(has(line_of("time step", std::string(four_by_five) + ", solver: {time_step: 1.0e-3}"),
+                  { "time step: 0.001 s, as the scene says; the stability limit of velocity_verlet is 0.0" }));
+  const std::string free =
+      "springs: {structural: {stiffness: 0}, shear: {stiffness: 0}, flex: {stiffness: 0}}, "
+      "air: {viscous_damping: 0, wind_coupling: 0}";
+  EXPECT_TRUE(has(line_of("time step", free), { "time step: 0.00416666", " s, 1/240 s, since nothing here limits" }));
+}
+
+TEST(TimeStepWarning, HasBothNumbersBeyondTheLimitAndNothingWithinIt)
+{
+  const std::string scene = std::string("{") + four_by_five + ", solver: {time_step: ";
+  const Simulation chosen = build_simulation(make_plan(scene_of(std::string("{") + four_by_five + "}")));
+  EXPECT_EQ(time_step_warning(chosen), "");
+  const double limit = chosen.stability_limit();
+  const Simulation within = build_simulation(make_plan(scene_of(scene + format_number(0.99 * limit) + "}}")));
+  EXPECT_EQ(time_step_warning(within), "");
+
+  const double given = 1.01 * limit;
+  const Simulation beyond = build_simulation(make_plan(scene_of(scene + format_number(given) + "}}")));
+  EXPECT_EQ(beyond.time_step(), given) << "a given step is obeyed";
+  const std::string warning = time_step_warning(beyond);
+  const std::string start =
+      "solver.time_step is " + format_number(given) + " s, beyond the stability limit of velocity_verlet, ";
+  ASSERT_EQ(warning.substr(0, start.size()), start);
+  EXPECT_NEAR(std::stod(warning.substr(start.size())), limit, 1e-4 * limit);
+}
+
+}  // namespace
+}  // namespace cloth
