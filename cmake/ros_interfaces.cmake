@@ -1,0 +1,25 @@
+# Messages, and what the package offers to others. Before any target, so that catkin's output folders apply to all.
+find_package(catkin REQUIRED COMPONENTS
+  geometry_msgs
+  message_generation
+  roscpp
+  roslib
+  std_msgs
+  tf2
+  tf2_ros
+  visualization_msgs
+)
+
+add_message_files(FILES
+  ClothState.msg
+  ClothStats.msg
+  ClothTopology.msg
+  Pin.msg
+)
+generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES cloth_core
+  CATKIN_DEPENDS geometry_msgs message_runtime std_msgs
+)

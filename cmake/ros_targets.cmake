@@ -1,0 +1,36 @@
+# The ROS layer on top of the core: everything that the node does, as a library that tests can link, and a thin main.
+add_library(cloth_ros STATIC
+  src/ros/cloth_node.cpp
+  src/ros/conversions.cpp
+  src/ros/frames.cpp
+  src/ros/mesh_marker.cpp
+  src/ros/messages.cpp
+  src/ros/node_scene.cpp
+  src/ros/pin_markers.cpp
+  src/ros/pin_requests.cpp
+  src/ros/refusal_log.cpp
+  src/ros/ribbon.cpp
+  src/ros/shading.cpp
+  src/ros/spring_marker.cpp
+  src/ros/tick_clock.cpp
+  src/ros/tick_statistics.cpp
+  src/ros/wind_request.cpp
+)
+add_dependencies(cloth_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+target_include_directories(cloth_ros PUBLIC src/ros)
+target_include_directories(cloth_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+target_link_libraries(cloth_ros PUBLIC cloth_core ${catkin_LIBRARIES})
+
+add_executable(cloth_node src/ros/cloth_node_main.cpp)
+target_link_libraries(cloth_node PRIVATE cloth_ros)
+
+install(TARGETS cloth_node
+  RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
+)
+install(DIRECTORY config launch
+  DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
+)
+
+if(CATKIN_ENABLE_TESTING)
+  include(cmake/ros_tests.cmake)
+endif()

@@ -1,0 +1,37 @@
+#include "frames.h"
+
+#include <utility>
+
+#include <ros/time.h>
+#include <tf2/exceptions.h>
+
+#include "refused_request.h"
+
+namespace cloth
+{
+
+Frames::Frames(std::string frame_id, const tf2::BufferCore& transforms)
+  : frame_id_(std::move(frame_id)), transforms_(transforms)
+{
+}
+
+Eigen::Isometry3d Frames::from(const std::string& source) const
+{
+  if (source.empty() || source == frame_id_)
+  {
+    return Eigen::Isometry3d::Identity();
+  }
+  try
+  {
+    const auto transform = transforms_.lookupTransform(frame_id_, source, ros::Time(0)).transform;
+    const auto& t = transform.translation;
+    const auto& q = transform.rotation;
+    return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+  }
+  catch (const tf2::TransformException&)
+  {
+    throw RefusedRequest("tf knows no transform from frame '" + source + "' to '" + frame_id_ + "'");
+  }
+}
+
+}  // namespace cloth

@@ -1,0 +1,116 @@
+#include "mesh_marker.h"
+
+#include <algorithm>
+
+#include "conversions.h"
+#include "shading.h"
+
+namespace cloth
+{
+namespace
+{
+
+/// Strains below this are too small to be given all of the colours.
+constexpr double least_full_strain = 0.01;
+
+}  // namespace
+
+MeshMarker::MeshMarker(const ClothModel& model, const std::string& frame_id, const MeshColouring& colouring,
+                       const Eigen::Vector3d& across)
+  : model_(model), colouring_(colouring)
+{
+  if (model.is_chain())
+  {
+    ribbon_.emplace(model, across);
+  }
+  triangles_ = ribbon_ ? ribbon_->triangles() : triangles_of(model);
+  colours_.resize(static_cast<size_t>(model.nodes()) * (ribbon_ ? 2 : 1));
+  strains_.resize(static_cast<size_t>(model.nodes()));
+
+  marker_.header.frame_id = frame_id;
+  marker_.ns = "cloth";
+  marker_.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  marker_.action = visualization_msgs::Marker::ADD;
+  marker_.pose.orientation.w = 1.0;
+  marker_.scale.x = marker_.scale.y = marker_.scale.z = 1.0;
+  marker_.color = to_colour(colouring.fabric);
+  marker_.points.resize(3 * triangles_.size());
+  marker_.colors.resize(3 * triangles_.size());
+}
+
+const visualization_msgs::Marker& MeshMarker::update(const Vectors& positions, const ros::Time& stamp)
+{
+  marker_.header.stamp = stamp;
+  const Vectors& vertices = lay_surface(positions);
+  colour_vertices(positions);
+  fill_marker(vertices);
+  return marker_;
+}
+
+const Vectors& MeshMarker::lay_surface(const Vectors& positions)
+{
+  if (ribbon_)
+  {
+    ribbon_->lay(positions, ribbon_vertices_, normals_);
+    return ribbon_vertices_;
+  }
+  node_normals(model_, positions, normals_);
+  return positions;
+}
+
+void MeshMarker::find_strains(const Vectors& positions)
+{
+  std::fill(strains_.begin(), strains_.end(), 0.0);
+  for (const SpringBatch& batch : model_.springs)
+  {
+    if (batch.kind == SpringKind::flex)
+    {
+      continue;
+    }
+    for_each_spring(batch, [&](int i, int j) {
+      const double strain = (positions.row(j) - positions.row(i)).norm() / batch.rest_length - 1.0;
+      for (const int node : { i, j })
+      {
+        double& worst = strains_[static_cast<size_t>(node)];
+        worst = std::max(worst, strain);
+      }
+    });
+  }
+}
+
+void MeshMarker::colour_vertices(const Vectors& positions)
+{
+  const int vertices_a_node = ribbon_ ? 2 : 1;
+  double full_strain = colouring_.full_strain;
+  if (colouring_.by_strain)
+  {
+    find_strains(positions);
+    if (full_strain == 0.0)
+    {
+      full_strain = std::max(least_full_strain, *std::max_element(strains_.begin(), strains_.end()));
+    }
+  }
+  for (size_t v = 0; v < colours_.size(); ++v)
+  {
+    const Eigen::Vector3d normal = normals_.row(static_cast<Eigen::Index>(v));
+    const size_t node = v / static_cast<size_t>(vertices_a_node);
+    colours_[v] = to_colour(colouring_.by_strain ? softly_lit(strain_colour(strains_[node], full_strain), normal) :
+                                                   lit(colouring_.fabric, normal));
+  }
+}
+
+void MeshMarker::fill_marker(const Vectors& vertices)
+{
+  size_t corner = 0;
+  for (const auto& triangle : triangles_)
+  {
+    for (const int vertex : triangle)
+    {
+      marker_.points[corner] = to_point(vertices, vertex);
+      marker_.colors[corner] = colours_[static_cast<size_t>(vertex)];
+      ++corner;
+    }
+  }
+}
+
+}  // namespace cloth

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include <yaml-cpp/yaml.h>
+
+#include "cloth_sim/scene/scene_params.h"
+
+namespace cloth
+{
+
+/// The scene of the parameter server below `private_namespace`, fetched at once. Where no key of the cloth itself is
+/// set, only keys of the node or nothing, it is the package's config/hanging_sheet.yaml with the set keys laid over it.
+/// Throws SceneError with all faults.
+SceneParams scene_from_parameters(const std::string& private_namespace);
+
+/// Whether `tree` has a key other than those that only the node uses.
+bool describes_a_cloth(const YAML::Node& tree);
+
+/// `base` with the values of `top` in place of its own, key by key.
+YAML::Node laid_over(const YAML::Node& base, const YAML::Node& top);
+
+}  // namespace cloth

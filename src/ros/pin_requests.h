@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cloth_sim/Pin.h"
+#include "cloth_sim/simulation/simulation.h"
+
+#include "frames.h"
+
+namespace cloth
+{
+
+/// Carries out a message of ~pin; `duration` (s of simulated time) is what a MOVE may take. Throws RefusedRequest where
+/// the message makes no sense for this cloth; the cloth is then as it was.
+void apply_pin(const cloth_sim::Pin& request, const Frames& frames, double duration, Simulation& simulation);
+
+}  // namespace cloth

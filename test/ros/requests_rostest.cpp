@@ -1,0 +1,303 @@
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Core>
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/Vector3Stamped.h>
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Log.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "cloth_sim/ClothState.h"
+#include "cloth_sim/Pin.h"
+
+#include "listener.h"
+
+namespace cloth
+{
+namespace
+{
+
+constexpr int rows = 9;
+constexpr int cols = 9;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using cloth_sim::ClothState;
+using PinMessage = cloth_sim::Pin;
+
+size_t node_at(int row, int col)
+{
+  return static_cast<size_t>(row * cols + col);
+}
+
+Eigen::Vector3d position_of(const ClothState& state, size_t node)
+{
+  return { state.positions[3 * node], state.positions[3 * node + 1], state.positions[3 * node + 2] };
+}
+
+double mean_y(const ClothState& state)
+{
+  double sum = 0.0;
+  for (size_t node = 0; node < state.flags.size(); ++node)
+  {
+    sum += position_of(state, node).y();
+  }
+  return sum / static_cast<double>(state.flags.size());
+}
+
+bool pinned(const ClothState& state, size_t node)
+{
+  return (state.flags[node] & ClothState::PINNED) != 0;
+}
+
+size_t pinned_nodes(const ClothState& state)
+{
+  size_t count = 0;
+  for (size_t node = 0; node < state.flags.size(); ++node)
+  {
+    count += pinned(state, node) ? 1 : 0;
+  }
+  return count;
+}
+
+/// A running node with its two upper corners pinned, still air, and a frame `gripper` half a metre in front of the
+/// sheet's middle, its x axis along the world's y.
+class Requests : public testing::Test
+{
+protected:
+  static void SetUpTestSuite()
+  {
+    static tf2_ros::StaticTransformBroadcaster broadcaster;
+    geometry_msgs::TransformStamped gripper;
+    gripper.header.frame_id = "world";
+    gripper.child_frame_id = "gripper";
+    gripper.transform.translation.y = 0.5;
+    gripper.transform.translation.z = 1.0;
+    gripper.transform.rotation.z = gripper.transform.rotation.w = std::sqrt(0.5);
+    broadcaster.sendTransform(gripper);
+  }
+
+  void SetUp() override
+  {
+    ASSERT_TRUE(wait_until([&] { return pins_.getNumSubscribers() > 0 && winds_.getNumSubscribers() > 0; }));
+    pins_.publish(release(""));
+    ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 0; }));
+    pins_.publish(pin("left", 0, 0));
+    pins_.publish(pin("right", 0, cols - 1));
+    ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 2; }));
+  }
+
+  static PinMessage pin(const std::string& name, int row, int col)
+  {
+    PinMessage message;
+    message.action = PinMessage::PIN;
+    message.select = PinMessage::NODE;
+    message.name = name;
+    message.row = static_cast<std::uint32_t>(row);
+    message.col = static_cast<std::uint32_t>(col);
+    return message;
+  }
+
+  static PinMessage release(const std::string& name)
+  {
+    PinMessage message;
+    message.action = PinMessage::RELEASE;
+    message.name = name;
+    return message;
+  }
+
+  static PinMessage at_point(std::uint8_t action, const std::string& name, const Eigen::Vector3d& point,
+                             const std::string& frame = "")
+  {
+    PinMessage message;
+    message.action = action;
+    message.select = PinMessage::NEAREST;
+    message.name = name;
+    message.point.header.frame_id = frame;
+    message.point.point.x = point.x();
+    message.point.point.y = point.y();
+    message.point.point.z = point.z();
+    return message;
+  }
+
+  static geometry_msgs::Vector3Stamped wind(const Eigen::Vector3d& velocity, const std::string& frame = "")
+  {
+    geometry_msgs::Vector3Stamped message;
+    message.header.frame_id = frame;
+    message.vector.x = velocity.x();
+    message.vector.y = velocity.y();
+    message.vector.z = velocity.z();
+    return message;
+  }
+
+  bool wait_for_pinned(size_t node)
+  {
+    return state_.wait_for_one([=](const ClothState& state) { return pinned(state, node); });
+  }
+
+  /// Waits for the node's warning that contains `text`.
+  bool wait_for_warning(const std::string& text)
+  {
+    return wait_until([&] { return warnings_with(text) > 0; });
+  }
+
+  int warnings_with(const std::string& text) const
+  {
+    int count = 0;
+    for (const rosgraph_msgs::Log& entry : log_.all())
+    {
+      count += entry.level == rosgraph_msgs::Log::WARN && entry.msg.find(text) != std::string::npos ? 1 : 0;
+    }
+    return count;
+  }
+
+  /// Sends the message; expects one warning with `text`, and the cloth to go on with the same pins.
+  void expect_refused(const PinMessage& message, const std::string& text)
+  {
+    log_.forget();
+    ASSERT_TRUE(state_.wait_for_more(1));
+    const auto flags = state_.last().flags;
+    pins_.publish(message);
+    EXPECT_TRUE(wait_for_warning(text)) << text;
+    ASSERT_TRUE(state_.wait_for_more(3));
+    EXPECT_EQ(warnings_with(text), 1) << text;
+    EXPECT_EQ(state_.last().flags, flags) << text;
+  }
+
+  ros::NodeHandle node_;
+  Listener<ClothState> state_{ "/cloth_node/state" };
+  Listener<visualization_msgs::MarkerArray> markers_{ "/cloth_node/pins" };
+  Listener<rosgraph_msgs::Log> log_{ "/rosout_agg" };
+  ros::Publisher pins_ = node_.advertise<PinMessage>("/cloth_node/pin", 100);
+  ros::Publisher winds_ = node_.advertise<geometry_msgs::Vector3Stamped>("/cloth_node/wind", 100);
+};
+
+TEST_F(Requests, APinHoldsANodeWhereItIs)
+{
+  const size_t corner = node_at(rows - 1, 0);
+  pins_.publish(pin("corner", rows - 1, 0));
+  ASSERT_TRUE(wait_for_pinned(corner));
+  const Eigen::Vector3d held = position_of(state_.last(), corner);
+  ASSERT_TRUE(state_.wait_for_more(10));
+  EXPECT_EQ(position_of(state_.last(), corner), held);
+}
+
+TEST_F(Requests, APinWithoutANameIsCalledByItsNode)
+{
+  pins_.publish(pin("", 3, 4));
+  ASSERT_TRUE(wait_for_pinned(node_at(3, 4)));
+  pins_.publish(release("pin_3_4"));
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return !pinned(state, node_at(3, 4)); }));
+}
+
+TEST_F(Requests, AReleasedNodeFallsAndItsMarkerGoes)
+{
+  pins_.publish(release("left"));
+  ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return !pinned(state, 0); }));
+  const double height = position_of(state_.last(), 0).z();
+  EXPECT_TRUE(state_.wait_for_one([=](const ClothState& state) { return position_of(state, 0).z() < height - 0.01; }));
+  EXPECT_TRUE(wait_until([&] {
+    for (const auto& marker : markers_.all().empty() ? std::vector<visualization_msgs::Marker>() :
+                                                       markers_.last().markers)
+    {
+      if (marker.ns == "left" && marker.action == visualization_msgs::Marker::DELETE)
+      {
+        return true;
+      }
+    }
+    return false;
+  }));
+}
+
+TEST_F(Requests, APinIsMovedToAPointOfAnotherFrame)
+{
+  const size_t corner = node_at(rows - 1, cols - 1);
+  pins_.publish(pin("corner", rows - 1, cols - 1));
+  ASSERT_TRUE(wait_for_pinned(corner));
+  // The frame's x is the world's y, its y the world's -x: it stands at (0, 0.5, 1).
+  pins_.publish(at_point(PinMessage::MOVE, "corner", { -0.2, -0.3, 0.05 }, "gripper"));
+  const Eigen::Vector3d target(0.3, 0.3, 1.05);
+  EXPECT_TRUE(state_.wait_for_one(
+      [=](const ClothState& state) { return (position_of(state, corner) - target).norm() < 1e-6; }));
+  EXPECT_TRUE(pinned(state_.last(), corner));
+}
+
+TEST_F(Requests, ThePinNearestToAPoint)
+{
+  const size_t middle = node_at(rows - 1, 4);
+  ASSERT_TRUE(state_.wait_for_more(1));
+  const Eigen::Vector3d below = position_of(state_.last(), middle) - Eigen::Vector3d(0, 0, 5);
+  pins_.publish(at_point(PinMessage::PIN, "nearest", below, "world"));
+  ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 3; }));
+  bool in_bottom_row = false;
+  for (int col = 0; col < cols; ++col)
+  {
+    in_bottom_row = in_bottom_row || pinned(state_.last(), node_at(rows - 1, col));
+  }
+  EXPECT_TRUE(in_bottom_row);
+}
+
+TEST_F(Requests, EveryNodeWithinARadius)
+{
+  PinMessage message = at_point(PinMessage::PIN, "all", { 0, 0, 1 });
+  message.select = PinMessage::RADIUS;
+  message.radius = 100.0;
+  pins_.publish(message);
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 1u * rows * cols; }));
+}
+
+TEST_F(Requests, WindDeflectsTheSheetAndTurnsWithItsFrame)
+{
+  winds_.publish(wind({ 0, -6, 0 }));
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return mean_y(state) < -0.1; }));
+  winds_.publish(wind({ 6, 0, 0 }, "gripper"));
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return mean_y(state) > 0.1; }));
+  winds_.publish(wind({ 0, 0, 0 }));
+}
+
+TEST_F(Requests, WindThatIsNotFiniteIsRefused)
+{
+  winds_.publish(wind({ 0, nan, 0 }));
+  winds_.publish(wind({ 0, nan, 0 }));
+  EXPECT_TRUE(wait_for_warning("wind: vector is not finite"));
+  ASSERT_TRUE(state_.wait_for_more(5));
+  EXPECT_EQ(warnings_with("wind: vector is not finite"), 1);
+  EXPECT_TRUE(std::isfinite(mean_y(state_.last())));
+}
+
+TEST_F(Requests, WindInAFrameThatTfDoesNotKnowIsRefused)
+{
+  winds_.publish(wind({ 0, -6, 0 }, "nowhere"));
+  EXPECT_TRUE(wait_for_warning("frame 'nowhere'"));
+  EXPECT_TRUE(state_.wait_for_more(5));
+}
+
+TEST_F(Requests, PinsThatMakeNoSenseAreRefused)
+{
+  expect_refused(pin("a", rows, 0), "row 9, col 0");
+  expect_refused(pin("a", 0, -1), "col 4294967295");
+  expect_refused(pin("a b", 1, 1), "name is a b");
+  expect_refused(pin("/a", 1, 1), "name is /a");
+  expect_refused(release("nobody"), "name 'nobody'");
+  expect_refused(at_point(PinMessage::MOVE, "somebody", { 0, 0, 0 }), "name 'somebody'");
+  expect_refused(at_point(PinMessage::MOVE, "left", { nan, 0, 0 }), "point is not finite");
+  expect_refused(at_point(PinMessage::PIN, "a", { 0, 0, 0 }, "elsewhere"), "frame 'elsewhere'");
+
+  PinMessage message = at_point(PinMessage::PIN, "a", { 0, 0, 9 });
+  message.select = PinMessage::RADIUS;
+  message.radius = 0.1;
+  expect_refused(message, "no node lies within");
+  message.radius = nan;
+  expect_refused(message, "radius is nan");
+  message.select = 7;
+  expect_refused(message, "select is 7");
+  message.action = 8;
+  expect_refused(message, "action is 8");
+  message = pin("a", 1, 1);
+  message.attach_frame = "gripper";
+  expect_refused(message, "attach_frame is 'gripper'");
+}
+
+}  // namespace
+}  // namespace cloth
