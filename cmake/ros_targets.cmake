@@ -1,3 +1,5 @@
+include_directories(SYSTEM ${catkin_INCLUDE_DIRS})
+
 # The ROS layer on top of the core: everything that the node does, as a library that tests can link, and a thin main.
 add_library(cloth_ros STATIC
   src/ros/cloth_node.cpp
@@ -18,19 +20,22 @@ add_library(cloth_ros STATIC
 )
 add_dependencies(cloth_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(cloth_ros PUBLIC src/ros)
-target_include_directories(cloth_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
 target_link_libraries(cloth_ros PUBLIC cloth_core ${catkin_LIBRARIES})
 
 add_executable(cloth_node src/ros/cloth_node_main.cpp)
 target_link_libraries(cloth_node PRIVATE cloth_ros)
 
-install(TARGETS cloth_node
+install(TARGETS cloth_core
+  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}
+)
+install(TARGETS cloth_node cloth_run parameter_page
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
+)
+install(DIRECTORY include/${PROJECT_NAME}/
+  DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
 )
 install(DIRECTORY config launch
   DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
 )
-
-if(CATKIN_ENABLE_TESTING)
-  include(cmake/ros_tests.cmake)
-endif()

@@ -17,23 +17,19 @@ target_include_directories(test_ros PRIVATE test)
 find_package(rosbag REQUIRED)
 find_package(rosgraph_msgs REQUIRED)
 find_package(rostest REQUIRED)
+include_directories(SYSTEM ${rosbag_INCLUDE_DIRS} ${rosgraph_msgs_INCLUDE_DIRS})
 
-function(cloth_add_rostest name)
-  set(target ros_${name}_test)
-  add_rostest_gtest(${target} test/ros/${name}.test
+add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
+  test/ros/child_process.cpp
+  test/ros/rostest_main.cpp
+)
+target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
+
+foreach(name bag clock divergence requests start_up streams)
+  add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
-    test/ros/child_process.cpp
-    test/ros/rostest_main.cpp
   )
-  target_link_libraries(${target} cloth_ros ${rosbag_LIBRARIES})
-  target_include_directories(${target} SYSTEM PRIVATE ${rosbag_INCLUDE_DIRS} ${rosgraph_msgs_INCLUDE_DIRS})
-  target_compile_definitions(${target} PRIVATE CLOTH_NODE="$<TARGET_FILE:cloth_node>")
-  add_dependencies(${target} cloth_node)
-endfunction()
-
-cloth_add_rostest(bag)
-cloth_add_rostest(clock)
-cloth_add_rostest(divergence)
-cloth_add_rostest(requests)
-cloth_add_rostest(start_up)
-cloth_add_rostest(streams)
+  target_link_libraries(ros_${name}_test cloth_rostest)
+  target_compile_definitions(ros_${name}_test PRIVATE CLOTH_NODE="$<TARGET_FILE:cloth_node>")
+  add_dependencies(ros_${name}_test cloth_node)
+endforeach()

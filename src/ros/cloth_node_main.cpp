@@ -42,13 +42,14 @@ int main(int argc, char** argv)
   std::signal(SIGINT, shut_down);
   std::signal(SIGTERM, shut_down);
   ros::init(argc, argv, "cloth_node", ros::init_options::NoSigintHandler);
+  // ROS shuts down with its last handle, and logs nothing then: this one outlives what is reported below.
+  const ros::NodeHandle private_node("~");
+  if (!ros::ok())
+  {
+    return EXIT_SUCCESS;
+  }
   try
   {
-    const ros::NodeHandle private_node("~");
-    if (!ros::ok())
-    {
-      return EXIT_SUCCESS;
-    }
     const auto scene = cloth::scene_from_parameters(private_node.getNamespace());
     cloth::ClothNode node(private_node, cloth::make_plan(scene));
     ros::AsyncSpinner spinner(1);

@@ -20,7 +20,8 @@ cloth_sim::ClothTopology topology_message(const ClothModel& model, std::uint32_t
 /// Puts the state of `simulation` into `message`, whose memory is used again; its header stays.
 void fill_state(const Simulation& simulation, cloth_sim::ClothState& message);
 
-/// What the simulation and the last period of ticks amount to; header, overruns, paused and plan are left to the caller.
+/// What the simulation and the last period of ticks amount to; header, overruns, paused and plan are left to the
+/// caller.
 cloth_sim::ClothStats stats_message(const Simulation& simulation, const TickReport& ticks);
 
 }  // namespace cloth

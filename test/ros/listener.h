@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <string>
@@ -47,6 +48,10 @@ public:
   const Message& last() const
   {
     return messages_.back();
+  }
+  std::uint32_t publishers() const
+  {
+    return subscriber_.getNumPublishers();
   }
   bool latched() const
   {

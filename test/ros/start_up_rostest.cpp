@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <csignal>
+#include <ostream>
 
 #include <gtest/gtest.h>
 #include <ros/param.h>
@@ -58,6 +60,11 @@ struct BadParameter
   std::vector<std::string> named;  ///< what the node must say: key, value, what is allowed
 };
 
+void PrintTo(const BadParameter& bad, std::ostream* stream)
+{
+  *stream << bad.arguments.front();
+}
+
 class BadParameters : public testing::TestWithParam<BadParameter>
 {
 };
@@ -80,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BadParameter{ { "_grvity:=[0,0,-1]" }, { "grvity", "not a key", "gravity" } },
                     BadParameter{ { "_cloth/rows:=many" }, { "cloth.rows", "many", "an integer from 1" } },
                     BadParameter{ { "_cloth/mass:=-0.1" }, { "cloth.mass", "-0.1", "> 0.0" } },
-                    BadParameter{ { "_gravity:=[0,0,.nan]" }, { "gravity", ".nan", "3 numbers" } },
+                    BadParameter{ { "_gravity:=[0,0,.nan]" }, { "gravity", ".nan", "3 finite numbers" } },
                     BadParameter{ { "_rate:=0" }, { "rate", "0", "> 0.0" } },
                     BadParameter{ { "_clock_mode:=master" }, { "clock_mode", "master", "not built yet", "follow" } },
                     BadParameter{ { "_cloth/rows:=0", "_solver/metod:=rk4" }, { "cloth.rows", "solver.metod" } }));
@@ -115,6 +122,8 @@ TEST(StartUp, TextOfTheCommandLineIsTakenAsNumbers)
   Node node({ "_cloth/rows:=20", "_cloth/cols:=5", "_gravity:=[0,0,-1]", "_solver/time_step:=1e-3" });
   ASSERT_TRUE(topology.wait_for(1));
   EXPECT_EQ(topology.last().rows, 20u);
+  node.signal(SIGINT);
+  ASSERT_TRUE(node.wait_for_end());
   EXPECT_NE(node.output().find("1.0 m/s2"), std::string::npos) << node.output();
   EXPECT_NE(node.output().find("0.001 s"), std::string::npos) << node.output();
 }
