@@ -115,7 +115,8 @@ bool Pins::carry(const std::string& name, const Eigen::Vector3d& target, double 
     if (pin.name == name)
     {
       const Eigen::Vector3d now = pin.carry.displacement(start);
-      const Eigen::Vector3d missing = target - (pin.held.colwise().mean().transpose() + pin.oscillation.displacement(end));
+      const Eigen::Vector3d missing =
+          target - (pin.held.colwise().mean().transpose() + pin.oscillation.displacement(end));
       pin.carry = { now, missing, start, end };
       return true;
     }

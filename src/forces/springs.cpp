@@ -174,41 +174,13 @@ void add_stiffness_product(const ClothModel& model, const Vectors& positions, co
       {
         const double inverse = inverse_length(l.x[s], l.y[s], l.z[s]);
         const double across = batch.stiffness * std::max(0.0, 1.0 - batch.rest_length * inverse);
-        const double along = (batch.stiffness - across) * inverse * inverse *
-                             (l.x[s] * u.x[s] + l.y[s] * u.y[s] + l.z[s] * u.z[s]);
+        const double along =
+            (batch.stiffness - across) * inverse * inverse * (l.x[s] * u.x[s] + l.y[s] * u.y[s] + l.z[s] * u.z[s]);
         u.x[s] = -(across * u.x[s] + along * l.x[s]);
         u.y[s] = -(across * u.y[s] + along * l.y[s]);
         u.z[s] = -(across * u.z[s] + along * l.z[s]);
       }
       add_to_both_ends(u, i, batch.offset, n, product);
-    });
-  }
-}
-
-void add_damping_product(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
-                         Vectors& product)
-{
-  Block l;
-  Block w;
-  for (const SpringBatch& batch : model.springs)
-  {
-    if (batch.damping == 0.0)
-    {
-      continue;
-    }
-    for_each_block(batch, [&](int i, int n) {
-      differences(positions, i, batch.offset, n, l);
-      differences(velocities, i, batch.offset, n, w);
-      for (int s = 0; s < n; ++s)
-      {
-        const double inverse = inverse_length(l.x[s], l.y[s], l.z[s]);
-        const double along =
-            -batch.damping * inverse * inverse * (l.x[s] * w.x[s] + l.y[s] * w.y[s] + l.z[s] * w.z[s]);
-        w.x[s] = along * l.x[s];
-        w.y[s] = along * l.y[s];
-        w.z[s] = along * l.z[s];
-      }
-      add_to_both_ends(w, i, batch.offset, n, product);
     });
   }
 }

@@ -84,12 +84,8 @@ double stability_limit(const Mode& mode)
 
 }  // namespace
 
-const MethodRow rk4{ "rk4",
-                     4,
-                     stability_limit,
-                     false,
-                     4,
-                     "the stiffest modes grow slowly at first, then at once",
-                     [] { return std::unique_ptr<Method>(new RungeKutta4); } };
+const MethodRow rk4{ "rk4", 4, stability_limit, false, 4, "the stiffest modes grow slowly at first, then at once", [] {
+                      return std::unique_ptr<Method>(new RungeKutta4);
+                    } };
 
 }  // namespace cloth

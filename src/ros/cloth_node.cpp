@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include <Eigen/Geometry>
-
 #include <ros/console.h>
 #include <ros/init.h>
 #include <visualization_msgs/Marker.h>
@@ -12,6 +10,7 @@
 
 #include "cloth_sim/ClothStats.h"
 #include "cloth_sim/ClothTopology.h"
+#include "cloth_sim/scene/start_state.h"
 #include "cloth_sim/scene/yaml_text.h"
 
 #include "messages.h"
@@ -36,10 +35,8 @@ MeshColouring colouring_of(const SceneParams& scene)
 /// The direction of a chain's width at the start.
 Eigen::Vector3d across_chain(const SceneParams& scene)
 {
-  const Eigen::Quaterniond rotation = Eigen::AngleAxisd(scene.start.rpy[2], Eigen::Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(scene.start.rpy[1], Eigen::Vector3d::UnitY()) *
-                                      Eigen::AngleAxisd(scene.start.rpy[0], Eigen::Vector3d::UnitX());
-  return rotation * (scene.sheet.cols == 1 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d at_rest = scene.sheet.cols == 1 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
+  return rotation_of(scene.start.rpy) * at_rest;
 }
 
 }  // namespace

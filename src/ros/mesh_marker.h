@@ -49,9 +49,9 @@ private:
   std::optional<Ribbon> ribbon_;
   std::vector<std::array<int, 3>> triangles_;  ///< of vertices
   Vectors ribbon_vertices_;
-  Vectors normals_;                            ///< one row a vertex
-  std::vector<std_msgs::ColorRGBA> colours_;   ///< one a vertex
-  std::vector<double> strains_;                ///< the worst of each node's structural and shear springs
+  Vectors normals_;                           ///< one row a vertex
+  std::vector<std_msgs::ColorRGBA> colours_;  ///< one a vertex
+  std::vector<double> strains_;               ///< the worst of each node's structural and shear springs
   visualization_msgs::Marker marker_;
 };
 

@@ -53,8 +53,7 @@ bool PinMarkers::shows(const std::vector<Pin>& pins, const Vectors& positions) c
   return std::equal(shown_.begin(), shown_.end(), pins.begin(), pins.end(), shows_pin);
 }
 
-visualization_msgs::Marker PinMarkers::marker_of(const Pin& pin, const Vectors& positions,
-                                                 const ros::Time& stamp) const
+visualization_msgs::Marker PinMarkers::marker_of(const Pin& pin, const Vectors& positions, const ros::Time& stamp) const
 {
   visualization_msgs::Marker marker;
   marker.header.frame_id = frame_id_;

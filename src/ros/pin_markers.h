@@ -28,7 +28,7 @@ private:
   visualization_msgs::Marker marker_of(const Pin& pin, const Vectors& positions, const ros::Time& stamp) const;
 
   std::string frame_id_;
-  double diameter_;                                ///< m
+  double diameter_;  ///< m
   bool shown_before_ = false;
   std::vector<visualization_msgs::Marker> shown_;  ///< one a pin, in the order of the pins
   visualization_msgs::MarkerArray message_;

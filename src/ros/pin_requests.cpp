@@ -162,8 +162,7 @@ void apply_pin(const cloth_sim::Pin& request, const Frames& frames, double durat
     case cloth_sim::Pin::MOVE:
       return move(request, frames, duration, simulation);
     default:
-      throw RefusedRequest("action is " + std::to_string(request.action) +
-                           "; allowed: 0 (PIN), 1 (RELEASE), 2 (MOVE)");
+      throw RefusedRequest("action is " + std::to_string(request.action) + "; allowed: 0 (PIN), 1 (RELEASE), 2 (MOVE)");
   }
 }
 

@@ -55,8 +55,8 @@ private:
 
   double rate_;
   double real_time_factor_;
-  ros::Time anchor_;                ///< the ticks are counted from here, so that no rounding error builds up
-  std::int64_t next_ = 0;           ///< number of the next tick after the anchor
+  ros::Time anchor_;       ///< the ticks are counted from here, so that no rounding error builds up
+  std::int64_t next_ = 0;  ///< number of the next tick after the anchor
   ros::Time latest_;
   std::uint64_t taken_ = 0;
   std::uint32_t overruns_ = 0;

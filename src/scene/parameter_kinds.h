@@ -156,7 +156,8 @@ struct RowsOf
   }
 
   template <typename Access>
-  static Parameter<Target> number(const char* key, const char* unit, const Range& range, const char* meaning, Access access)
+  static Parameter<Target> number(const char* key, const char* unit, const Range& range, const char* meaning,
+                                  Access access)
   {
     Parameter<Target> parameter;
     parameter.key = key;
@@ -178,7 +179,8 @@ struct RowsOf
   }
 
   template <typename Access>
-  static Parameter<Target> vector(const char* key, const char* unit, const Range& range, const char* meaning, Access access)
+  static Parameter<Target> vector(const char* key, const char* unit, const Range& range, const char* meaning,
+                                  Access access)
   {
     constexpr int size = std::decay_t<decltype(access(std::declval<Target&>()))>::SizeAtCompileTime;
     Parameter<Target> parameter;
@@ -220,8 +222,8 @@ struct RowsOf
 
   /// One of some words. `planned` are words that belong to the interface but are not built yet.
   template <typename Access>
-  static Parameter<Target> choice(const char* key, const std::vector<std::string>& words, const std::vector<std::string>& planned,
-                   const char* meaning, Access access)
+  static Parameter<Target> choice(const char* key, const std::vector<std::string>& words,
+                                  const std::vector<std::string>& planned, const char* meaning, Access access)
   {
     Parameter<Target> parameter;
     parameter.key = key;

@@ -12,9 +12,9 @@ std::string row_of(const Parameter<Target>& parameter)
 {
   const std::string value = parameter.get(Target());
   std::ostringstream row;
-  row << "| `" << parameter.key << "` | " << parameter.type << " | " << (value.empty() ? "-" : "`" + value + "`") << " | "
-      << (parameter.unit.empty() ? "-" : parameter.unit) << " | " << parameter.allowed << " | " << parameter.meaning
-      << " |\n";
+  row << "| `" << parameter.key << "` | " << parameter.type << " | " << (value.empty() ? "-" : "`" + value + "`")
+      << " | " << (parameter.unit.empty() ? "-" : parameter.unit) << " | " << parameter.allowed << " | "
+      << parameter.meaning << " |\n";
   return row.str();
 }
 
@@ -62,7 +62,8 @@ number, and text that reads as the due number or list is taken as it, since rosp
 
 `pins` is a list; without it the two upper corners are held, and `pins: []` is a free sheet. Each entry has
 
-)" + pin_rows() + R"(
+)" + pin_rows() +
+         R"(
 A pin holds its nodes where they start. A node that two pins name belongs to the first; this is an error where the two
 do not move alike.
 

@@ -49,10 +49,14 @@ bool border(const ClothModel& model, int row, int col)
 }
 
 constexpr Place places[] = {
-  { "top_left", both<top, left> },       { "top_right", both<top, right> },
-  { "bottom_left", both<bottom, left> }, { "bottom_right", both<bottom, right> },
-  { "top_edge", top },                   { "bottom_edge", bottom },
-  { "left_edge", left },                 { "right_edge", right },
+  { "top_left", both<top, left> },
+  { "top_right", both<top, right> },
+  { "bottom_left", both<bottom, left> },
+  { "bottom_right", both<bottom, right> },
+  { "top_edge", top },
+  { "bottom_edge", bottom },
+  { "left_edge", left },
+  { "right_edge", right },
   { "border", border },
 };
 

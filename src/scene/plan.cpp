@@ -27,14 +27,13 @@ PlanLine spring_line(const SheetProperties& sheet, SpringKind kind, const Spring
   }
   if (count == 0)
   {
-    line.reason = "the grid of " + std::to_string(sheet.rows) + " x " + std::to_string(sheet.cols) +
-                  " nodes has no room for one";
+    line.reason =
+        "the grid of " + std::to_string(sheet.rows) + " x " + std::to_string(sheet.cols) + " nodes has no room for one";
     return line;
   }
   line.kept = true;
   line.reason = std::to_string(count) + " of " + format_number(properties.stiffness) + " N/m" +
-                (properties.damping == 0.0 ? ", undamped" :
-                                             " and " + format_number(properties.damping) + " N s/m");
+                (properties.damping == 0.0 ? ", undamped" : " and " + format_number(properties.damping) + " N s/m");
   return line;
 }
 
@@ -77,8 +76,8 @@ PlanLine strain_limit_line(const SceneParams& scene)
     return { "strain limit", false, "there are no structural and no shear springs" };
   }
   return { "strain limit", true,
-           format_number(scene.strain_limit.max_strain) + " in at most " +
-               std::to_string(scene.strain_limit.sweeps) + " sweeps a step" };
+           format_number(scene.strain_limit.max_strain) + " in at most " + std::to_string(scene.strain_limit.sweeps) +
+               " sweeps a step" };
 }
 
 std::string counted(size_t number, const std::string& noun)
@@ -100,7 +99,8 @@ PlanLine pin_line(const std::vector<Pin>& pins)
     return { "pins", false, "the scene has none" };
   }
   return { "pins", true,
-           counted(nodes, "node") + " in " + counted(pins.size(), "pin") + ", " + std::to_string(moving) + " of them moving" };
+           counted(nodes, "node") + " in " + counted(pins.size(), "pin") + ", " + std::to_string(moving) +
+               " of them moving" };
 }
 
 PlanLine method_line(const SceneParams& scene)

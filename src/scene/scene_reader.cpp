@@ -96,8 +96,8 @@ private:
     const std::vector<std::string>& planned = parameter.planned;
     if (value.IsScalar() && std::find(planned.begin(), planned.end(), value.Scalar()) != planned.end())
     {
-      faults_.push_back(full_name(parameter.key) + " is " + shown(value) + ", which is not built yet; allowed: " +
-                        parameter.allowed);
+      faults_.push_back(full_name(parameter.key) + " is " + shown(value) +
+                        ", which is not built yet; allowed: " + parameter.allowed);
       return;
     }
     try
@@ -230,8 +230,7 @@ void set_below(YAML::Node& tree, const std::string& key, size_t begin, const YAM
 
 }  // namespace
 
-SceneError::SceneError(const std::vector<std::string>& faults)
-  : std::runtime_error(joined(faults, "\n"))
+SceneError::SceneError(const std::vector<std::string>& faults) : std::runtime_error(joined(faults, "\n"))
 {
 }
 

@@ -19,6 +19,13 @@ double fraction(int index, int count)
 
 }  // namespace
 
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& rpy)
+{
+  return (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
 ClothState start_state(const StartParams& start, const ClothModel& model)
 {
   ClothState state;
@@ -31,11 +38,7 @@ ClothState start_state(const StartParams& start, const ClothModel& model)
     const double b = fraction(model.row_of(i), model.rows);
     state.positions(i, 1) += start.ripple * (std::sin(2.0 * pi * a + 0.3) + 0.5 * std::sin(3.0 * pi * b + 1.1)) * b;
   }
-  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(start.rpy[2], Eigen::Vector3d::UnitZ()) *
-                                    Eigen::AngleAxisd(start.rpy[1], Eigen::Vector3d::UnitY()) *
-                                    Eigen::AngleAxisd(start.rpy[0], Eigen::Vector3d::UnitX()))
-                                       .toRotationMatrix();
-  state.positions = (state.positions * rotation.transpose()).rowwise() + start.position.transpose();
+  state.positions = (state.positions * rotation_of(start.rpy).transpose()).rowwise() + start.position.transpose();
   state.velocities = start.velocity.transpose().replicate(model.nodes(), 1);
   return state;
 }

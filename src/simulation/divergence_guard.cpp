@@ -107,15 +107,15 @@ std::optional<Divergence> DivergenceGuard::check(const Dynamics& dynamics, const
   }
   const ClothModel& model = dynamics.model();
   const double kinetic = 0.5 * model.masses.dot(state.velocities.rowwise().squaredNorm());
-  const double fallen =
-      opening_gravitational_ - gravitational_energy(model, dynamics.gravity(), state.positions);
+  const double fallen = opening_gravitational_ - gravitational_energy(model, dynamics.gravity(), state.positions);
   const double from_wind = wind_power(dynamics) * (state.time - opening_time_);
   const double put_in = allowance_ + std::max(0.0, fallen) + from_wind;
   if (kinetic > factor * put_in)
   {
     char cause[160];
-    std::snprintf(cause, sizeof cause, "kinetic energy of %.3g J is more than %g times the %.3g J that can have been put in",
-                  kinetic, factor, put_in);
+    std::snprintf(cause, sizeof cause,
+                  "kinetic energy of %.3g J is more than %g times the %.3g J that can have been put in", kinetic,
+                  factor, put_in);
     return Divergence{ state.time, fastest_node(state), cause };
   }
   return std::nullopt;

@@ -131,8 +131,8 @@ std::string Simulation::divergence_report() const
     return {};
   }
   std::ostringstream text;
-  text << "diverged at " << divergence_->time << " s, first seen at node [" << model().row_of(divergence_->node)
-       << ", " << model().col_of(divergence_->node) << "]: " << divergence_->cause << "; the step was " << last_step_
+  text << "diverged at " << divergence_->time << " s, first seen at node [" << model().row_of(divergence_->node) << ", "
+       << model().col_of(divergence_->node) << "]: " << divergence_->cause << "; the step was " << last_step_
        << " s, the stability limit of " << method_row_->name << " is " << stability_limit()
        << " s for the last good state; take a smaller solver.time_step (0: chosen from the limit) or softer springs";
   return text.str();

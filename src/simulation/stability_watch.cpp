@@ -7,7 +7,7 @@ namespace cloth
 namespace
 {
 
-constexpr double longest_age = 0.2;      // s
+constexpr double longest_age = 0.2;  // s
 constexpr double allowed_increase = 1.05;
 
 }  // namespace

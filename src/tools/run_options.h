@@ -19,11 +19,11 @@ public:
 struct RunOptions
 {
   std::string scene_file;
-  double duration = 5.0;     ///< s
-  double every = 0.0333;     ///< s between two samples
+  double duration = 5.0;                                      ///< s
+  double every = 0.0333;                                      ///< s between two samples
   std::vector<std::pair<std::string, std::string>> settings;  ///< dotted key and value, in the order given
-  std::string output_file;   ///< empty: none
-  std::string summary_file;  ///< empty: none
+  std::string output_file;                                    ///< empty: none
+  std::string summary_file;                                   ///< empty: none
   bool plan_only = false;
   bool help = false;
 };

@@ -50,7 +50,8 @@ Motion damped_oscillation(double frequency, double ratio, double time)
 TEST_P(EveryMethod, FollowsTheDampedOscillator)
 {
   const double frequency = 3.0;
-  for (const auto& [air, spring] : { std::pair(0.0, 0.0), std::pair(0.1, 0.0), std::pair(0.0, 0.1), std::pair(0.2, 0.3) })
+  for (const auto& [air, spring] :
+       { std::pair(0.0, 0.0), std::pair(0.1, 0.0), std::pair(0.0, 0.1), std::pair(0.2, 0.3) })
   {
     const double end = 2.0;
     std::vector<double> errors;
@@ -148,8 +149,8 @@ TEST_P(EveryMethod, SwingsALongitudinalModeOfTheChainAtItsFrequency)
       std::vector<double> errors;
       for (const int steps : { 250, 500 })
       {
-        const double measured = amplitude_after(GetParam(), mode, model, model.rest_positions, both_ends, 2, amplitude,
-                                                time, steps);
+        const double measured =
+            amplitude_after(GetParam(), mode, model, model.rest_positions, both_ends, 2, amplitude, time, steps);
         errors.push_back(std::abs(measured / amplitude - std::cos(mode.frequency * time)));
       }
       SCOPED_TRACE(testing::Message() << "mode " << p << (both_ends ? " of both ends fixed" : " of one end fixed"));

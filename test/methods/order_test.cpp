@@ -19,8 +19,7 @@ namespace
 class ManufacturedMotion : public Dynamics
 {
 public:
-  ManufacturedMotion()
-    : Dynamics(make_sheet(small_sheet()), { 0.0, 0.0, -9.81 }, { 0.3, 1.1, { 0.4, 2.0, 0.0 } })
+  ManufacturedMotion() : Dynamics(make_sheet(small_sheet()), { 0.0, 0.0, -9.81 }, { 0.3, 1.1, { 0.4, 2.0, 0.0 } })
   {
     const ClothModel& sheet = model();
     amplitudes_.resize(sheet.nodes(), 3);
@@ -28,7 +27,8 @@ public:
     {
       const double a = sheet.rest_positions(i, 0) / sheet.width;
       const double b = sheet.rest_positions(i, 2) / sheet.height;
-      amplitudes_.row(i) << 0.003 * std::cos(2.0 * a + b), 0.03 * std::sin(3.0 * a - b + 0.5), 0.003 * std::sin(a * b + 1.0);
+      amplitudes_.row(i) << 0.003 * std::cos(2.0 * a + b), 0.03 * std::sin(3.0 * a - b + 0.5),
+          0.003 * std::sin(a * b + 1.0);
     }
     Pin corner = still_pin("corner", { 0 }, 1.15 * sheet.rest_positions);
     corner.oscillation = { amplitudes_.row(0).transpose(), frequency_, phase_ };
@@ -75,7 +75,8 @@ private:
 /// The states at the ends of equal parts of the way: an error at one time alone may be small by chance.
 constexpr int parts = 20;
 
-std::vector<ClothState> integrate(const MethodRow& row, const Dynamics& dynamics, ClothState state, double end, int steps)
+std::vector<ClothState> integrate(const MethodRow& row, const Dynamics& dynamics, ClothState state, double end,
+                                  int steps)
 {
   const std::unique_ptr<Method> method = row.make();
   std::vector<ClothState> samples;

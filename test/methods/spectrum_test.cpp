@@ -35,9 +35,8 @@ public:
     stiffness_ = jacobian(model, [&](const Vectors& step, Vectors& forces) {
       add_spring_forces(model, positions + step, at_rest, forces);
     });
-    damping_ = jacobian(model, [&](const Vectors& step, Vectors& forces) {
-      add_spring_forces(model, positions, step, forces);
-    });
+    damping_ = jacobian(
+        model, [&](const Vectors& step, Vectors& forces) { add_spring_forces(model, positions, step, forces); });
   }
 
   double largest_stiffness() const

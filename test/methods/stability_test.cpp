@@ -107,8 +107,8 @@ TEST_P(Stability, OfASheetEndsNearItsClaimedLimit)
   dynamics.pins().hold(still_pin("corner", { 0 }, rest));
   const double limit = network_stability_limit(GetParam(), stiffest_mode(dynamics, rest));
   const auto grows = [&](double h) {
-    ClothState state{ rest + 1e-9 * noise.vectors(dynamics.model().nodes()),
-                      Vectors::Zero(dynamics.model().nodes(), 3), 0.0 };
+    ClothState state{ rest + 1e-9 * noise.vectors(dynamics.model().nodes()), Vectors::Zero(dynamics.model().nodes(), 3),
+                      0.0 };
     const std::unique_ptr<Method> method = GetParam().make();
     for (int s = 0; s < 20000; ++s)
     {

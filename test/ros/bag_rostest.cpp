@@ -55,11 +55,10 @@ int compare(const rosbag::Bag& bag, const std::string& topic, const Listener<Mes
       ADD_FAILURE() << topic << " is of another type";
       continue;
     }
-    const bool known =
-        std::any_of(heard.all().begin(), heard.all().end(), [&](Message message) {
-          message.header.seq = recorded->header.seq;
-          return message == *recorded;
-        });
+    const bool known = std::any_of(heard.all().begin(), heard.all().end(), [&](Message message) {
+      message.header.seq = recorded->header.seq;
+      return message == *recorded;
+    });
     EXPECT_TRUE(known) << topic << " at " << recorded->header.stamp;
     ++count;
   }

@@ -212,8 +212,8 @@ TEST_F(Requests, AReleasedNodeFallsAndItsMarkerGoes)
   const double height = position_of(state_.last(), 0).z();
   EXPECT_TRUE(state_.wait_for_one([=](const ClothState& state) { return position_of(state, 0).z() < height - 0.01; }));
   EXPECT_TRUE(wait_until([&] {
-    for (const auto& marker : markers_.all().empty() ? std::vector<visualization_msgs::Marker>() :
-                                                       markers_.last().markers)
+    for (const auto& marker :
+         markers_.all().empty() ? std::vector<visualization_msgs::Marker>() : markers_.last().markers)
     {
       if (marker.ns == "left" && marker.action == visualization_msgs::Marker::DELETE)
       {

@@ -156,9 +156,8 @@ TEST(StartUp, StrainColoursTellStretchedFromSlack)
     }
     return most;
   };
-  EXPECT_TRUE(mesh.wait_for_one([&](const visualization_msgs::Marker& marker) {
-    return most_red(marker) > 0.3F && most_blue(marker) > 0.2F;
-  }));
+  EXPECT_TRUE(mesh.wait_for_one(
+      [&](const visualization_msgs::Marker& marker) { return most_red(marker) > 0.3F && most_blue(marker) > 0.2F; }));
 }
 
 class EndBy : public testing::TestWithParam<int>

@@ -78,8 +78,7 @@ TEST_P(Conservation, AngularMomentumOfAFreeUndampedSheetStaysWhereTheTableSaysSo
   Simulation simulation(setup);
   const Eigen::Vector3d before = angular_momentum_of(simulation.model(), simulation.state());
   simulation.advance_to(5.0);
-  const double drift =
-      (angular_momentum_of(simulation.model(), simulation.state()) - before).norm() / before.norm();
+  const double drift = (angular_momentum_of(simulation.model(), simulation.state()) - before).norm() / before.norm();
   if (GetParam().conserves_angular_momentum)
   {
     EXPECT_LT(drift, 1e-11);
@@ -99,8 +98,7 @@ TEST_P(Conservation, CentreOfMassFallsFreely)
   const Eigen::Vector3d velocity = momentum_of(simulation.model(), simulation.state()) / setup.model.masses.sum();
   const double time = 0.7;
   simulation.advance_to(time);
-  const Eigen::Vector3d now =
-      simulation.state().positions.transpose() * setup.model.masses / setup.model.masses.sum();
+  const Eigen::Vector3d now = simulation.state().positions.transpose() * setup.model.masses / setup.model.masses.sum();
   const Eigen::Vector3d exact = middle + time * velocity + 0.5 * time * time * setup.gravity;
   // Semi-implicit Euler falls h g t/2 farther: its order is 1. The others' quadrature of a constant is exact.
   const double tolerance = GetParam().order == 1 ? 0.6 * 9.81 * time * simulation.time_step() : 1e-12;

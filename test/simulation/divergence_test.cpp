@@ -64,7 +64,8 @@ TEST_P(Divergence, ReportSaysWhenWhereTheLimitAndWhatToChange)
   EXPECT_TRUE(simulation.divergence_report().empty());
   simulation.advance_to(5.0);
   const std::string report = simulation.divergence_report();
-  for (const char* const part : { "diverged at ", "node [", "energy of ", "stability limit", GetParam().name, "solver.time_step" })
+  for (const char* const part :
+       { "diverged at ", "node [", "energy of ", "stability limit", GetParam().name, "solver.time_step" })
   {
     EXPECT_NE(report.find(part), std::string::npos) << part << " is not in: " << report;
   }

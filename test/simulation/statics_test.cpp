@@ -70,15 +70,16 @@ TEST_P(Statics, ASheetHungByItsTopRowIsThatChainColumnByColumn)
   {
     for (int r = 1; r < 7; ++r)
     {
-      const double length = (simulation.state().positions.row(model.node(r, c)) -
-                             simulation.state().positions.row(model.node(r - 1, c))).norm();
+      const double length =
+          (simulation.state().positions.row(model.node(r, c)) - simulation.state().positions.row(model.node(r - 1, c)))
+              .norm();
       EXPECT_NEAR(length, sheet.height / 6 + (7 - r) * m * g / k, 1e-6);
     }
   }
 }
 
-/// The elastic catenary of links of equal nodes hung at both ends: the link force (H, V_i), V_i = V_0 - i m g, where V_0
-/// is half the hanging weight; l_i = l0 + T_i/k. H by bisection, so that sum l_i H/T_i is the span.
+/// The elastic catenary of links of equal nodes hung at both ends: the link force (H, V_i), V_i = V_0 - i m g, where
+/// V_0 is half the hanging weight; l_i = l0 + T_i/k. H by bisection, so that sum l_i H/T_i is the span.
 struct Catenary
 {
   Catenary(int links, double k, double m, double rest_length, double span)

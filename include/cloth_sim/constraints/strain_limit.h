@@ -41,9 +41,9 @@ public:
   /// What one call did.
   struct Report
   {
-    int sweeps = 0;         ///< passes made, the last of which may have found nothing
-    bool moved = false;     ///< some node moved
-    bool reached = true;    ///< no spring that can be shortened is above the limit
+    int sweeps = 0;       ///< passes made, the last of which may have found nothing
+    bool moved = false;   ///< some node moved
+    bool reached = true;  ///< no spring that can be shortened is above the limit
   };
 
   /// Corrects the positions and velocities of `state` after a step of length h (s).

@@ -9,9 +9,9 @@ namespace cloth
 
 struct AirProperties
 {
-  double viscous_damping = 0.3;                       ///< N s/m per m2 of sheet
-  double wind_coupling = 1.0;                         ///< N s/m per m2 of sheet
-  Eigen::Vector3d wind = Eigen::Vector3d::Zero();     ///< u, the air's velocity, m/s
+  double viscous_damping = 0.3;                    ///< N s/m per m2 of sheet
+  double wind_coupling = 1.0;                      ///< N s/m per m2 of sheet
+  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  ///< u, the air's velocity, m/s
 };
 
 /// The air's force on each node (Provot 1995, section 3.2):

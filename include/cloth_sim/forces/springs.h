@@ -24,8 +24,4 @@ double max_strain(const ClothModel& model, const Vectors& positions);
 void add_stiffness_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
                            Vectors& product);
 
-/// Adds C w, C = -df/dv of the internal damping: c n n^T (w_i - w_j). `velocities` in m/s, `product` in N.
-void add_damping_product(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
-                         Vectors& product);
-
 }  // namespace cloth

@@ -44,12 +44,12 @@ struct Mode
 /// A row of the table of methods: what it is called, promises and costs.
 struct MethodRow
 {
-  const char* name;                            ///< in scene files; also the name of its source file
-  int order;                                   ///< of the error in positions and velocities
-  double (*stability_limit)(const Mode& mode); ///< largest stable step, s; infinite where there is none
-  bool conserves_angular_momentum;             ///< exactly, of a free undamped network (linear momentum: all do)
-  int force_evaluations;                       ///< a step
-  const char* failure;                         ///< what is seen beyond the stability limit
+  const char* name;                             ///< in scene files; also the name of its source file
+  int order;                                    ///< of the error in positions and velocities
+  double (*stability_limit)(const Mode& mode);  ///< largest stable step, s; infinite where there is none
+  bool conserves_angular_momentum;              ///< exactly, of a free undamped network (linear momentum: all do)
+  int force_evaluations;                        ///< a step
+  const char* failure;                          ///< what is seen beyond the stability limit
   std::unique_ptr<Method> (*make)();
 };
 

@@ -45,12 +45,12 @@ struct ClothModel
 {
   int rows = 0;
   int cols = 0;
-  double width = 0.0;               ///< m
-  double height = 0.0;              ///< m
-  Eigen::VectorXd masses;           ///< kg, one a node
-  Eigen::VectorXd areas;            ///< m2 of sheet that belong to each node
-  std::vector<SpringBatch> springs; ///< structural, shear, flex, in this order
-  Vectors rest_positions;           ///< m; middle of the top edge at the origin, column along +x, row along -z
+  double width = 0.0;                ///< m
+  double height = 0.0;               ///< m
+  Eigen::VectorXd masses;            ///< kg, one a node
+  Eigen::VectorXd areas;             ///< m2 of sheet that belong to each node
+  std::vector<SpringBatch> springs;  ///< structural, shear, flex, in this order
+  Vectors rest_positions;            ///< m; middle of the top edge at the origin, column along +x, row along -z
 
   int nodes() const
   {

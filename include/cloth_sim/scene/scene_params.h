@@ -48,7 +48,7 @@ struct NodeParams
   double real_time_factor = 1.0;  ///< 0: as fast as it can
   std::string clock_mode = "follow";
   bool start_paused = false;
-  std::string colouring = "fabric";  ///< fabric or strain
+  std::string colouring = "fabric";                   ///< fabric or strain
   Eigen::Vector3d fabric_colour{ 0.75, 0.16, 0.18 };  ///< red, green, blue in [0, 1]
 };
 

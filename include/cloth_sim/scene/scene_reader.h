@@ -27,8 +27,8 @@ SceneParams read_scene(const YAML::Node& tree);
 /// The tree of a YAML file. Throws SceneError with the file's name where it cannot be read or is no YAML.
 YAML::Node load_scene_file(const std::string& path);
 
-/// Sets the value at a dotted key (`solver.time_step`), `value` being YAML. Throws SceneError where the key or the value
-/// cannot be read; whether the key exists is for `read_scene` to say.
+/// Sets the value at a dotted key (`solver.time_step`), `value` being YAML. Throws SceneError where the key or the
+/// value cannot be read; whether the key exists is for `read_scene` to say.
 void override_key(YAML::Node& tree, const std::string& key, const std::string& value);
 
 }  // namespace cloth
