@@ -7,6 +7,7 @@
 #include <string>
 
 #include <Eigen/Core>
+#include <gtest/gtest.h>
 
 #include "cloth_sim/methods/dynamics.h"
 #include "cloth_sim/model/cloth_model.h"
@@ -31,6 +32,12 @@ inline SceneParams shipped_scene(const std::string& name)
 inline void PrintTo(const MethodRow& row, std::ostream* stream)
 {
   *stream << row.name;
+}
+
+/// The name that a test of every method has.
+inline std::string name_of_method(const testing::TestParamInfo<MethodRow>& info)
+{
+  return info.param.name;
 }
 
 /// Reproducible numbers in [-1, 1].

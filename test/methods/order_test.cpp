@@ -115,11 +115,6 @@ class Order : public testing::TestWithParam<MethodRow>
 {
 };
 
-std::string name_of_method(const testing::TestParamInfo<MethodRow>& info)
-{
-  return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, Order, testing::ValuesIn(methods()), name_of_method);
 
 TEST_P(Order, IsTheClaimedOneOnAManufacturedMotion)

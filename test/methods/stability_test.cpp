@@ -18,11 +18,6 @@ class Stability : public testing::TestWithParam<MethodRow>
 {
 };
 
-std::string name_of_method(const testing::TestParamInfo<MethodRow>& info)
-{
-  return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, Stability, testing::ValuesIn(methods()), name_of_method);
 
 /// The amplitude after at most `steps` steps of h from 1 at rest; returns early once it has grown a thousandfold.

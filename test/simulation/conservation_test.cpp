@@ -36,11 +36,6 @@ protected:
   }
 };
 
-std::string name_of_method(const testing::TestParamInfo<MethodRow>& info)
-{
-  return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, Conservation, testing::ValuesIn(methods()), name_of_method);
 
 /// What the size of a momentum is measured by.

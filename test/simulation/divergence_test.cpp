@@ -12,11 +12,6 @@ class Divergence : public testing::TestWithParam<MethodRow>
 {
 };
 
-std::string name_of_method(const testing::TestParamInfo<MethodRow>& info)
-{
-  return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, Divergence, testing::ValuesIn(methods()), name_of_method);
 
 SceneParams scene_beyond_the_limit(const std::string& method, double times)

@@ -29,11 +29,6 @@ protected:
   }
 };
 
-std::string name_of_method(const testing::TestParamInfo<MethodRow>& info)
-{
-  return info.param.name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, Statics, testing::ValuesIn(methods()), name_of_method);
 
 TEST_P(Statics, EachLinkOfAHangingChainIsStretchedByWhatHangsBelow)
