@@ -12,11 +12,45 @@ namespace
 /// read and write different arrays, vectorise.
 constexpr int block_size = 128;
 
+/// One vector for each spring of a block.
 struct Block
 {
   double x[block_size];
   double y[block_size];
   double z[block_size];
+};
+
+struct Vector
+{
+  double x;
+  double y;
+  double z;
+
+  double dot(const Vector& other) const
+  {
+    return x * other.x + y * other.y + z * other.z;
+  }
+};
+
+/// The differences u_j - u_i over the springs of a block, the first of which joins i and i + offset.
+class Differences
+{
+public:
+  Differences(const Vectors& vectors, int i, int offset)
+    : x_(vectors.col(0).data() + i), y_(vectors.col(1).data() + i), z_(vectors.col(2).data() + i), offset_(offset)
+  {
+  }
+
+  Vector operator[](int s) const
+  {
+    return { x_[s + offset_] - x_[s], y_[s + offset_] - y_[s], z_[s + offset_] - z_[s] };
+  }
+
+private:
+  const double* x_;
+  const double* y_;
+  const double* z_;
+  int offset_;
 };
 
 /// Calls work(i, n) for the blocks of a batch: n springs, the first of which joins i and i + offset.
@@ -30,20 +64,6 @@ void for_each_block(const SpringBatch& batch, Work&& work)
     {
       work(begin + done, std::min(block_size, batch.cols - done));
     }
-  }
-}
-
-/// block = u_j - u_i for the springs of a block.
-void differences(const Vectors& vectors, int i, int offset, int n, Block& block)
-{
-  const double* const x = vectors.col(0).data() + i;
-  const double* const y = vectors.col(1).data() + i;
-  const double* const z = vectors.col(2).data() + i;
-  for (int s = 0; s < n; ++s)
-  {
-    block.x[s] = x[s + offset] - x[s];
-    block.y[s] = y[s + offset] - y[s];
-    block.z[s] = z[s + offset] - z[s];
   }
 }
 
@@ -68,10 +88,54 @@ void add_to_both_ends(const Block& block, int i, int offset, int n, Vectors& vec
 }
 
 /// 1/|l|, or 0 for a spring of no length: it has no direction, and no force.
-inline double inverse_length(double x, double y, double z)
+inline double inverse_length(const Vector& l)
 {
-  const double squared = x * x + y * y + z * z;
+  const double squared = l.dot(l);
   return squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
+}
+
+/// block[s] = factor * l
+inline void put(Block& block, int s, double factor, const Vector& l)
+{
+  block.x[s] = factor * l.x;
+  block.y[s] = factor * l.y;
+  block.z[s] = factor * l.z;
+}
+
+void add_elastic_forces(const SpringBatch& batch, const Vectors& positions, Vectors& forces)
+{
+  const double k = batch.stiffness;
+  const double l0 = batch.rest_length;
+  Block force;
+  for_each_block(batch, [&](int i, int n) {
+    const Differences lengths(positions, i, batch.offset);
+    for (int s = 0; s < n; ++s)
+    {
+      const Vector l = lengths[s];
+      put(force, s, k - k * l0 * inverse_length(l), l);
+    }
+    add_to_both_ends(force, i, batch.offset, n, forces);
+  });
+}
+
+void add_elastic_and_damping_forces(const SpringBatch& batch, const Vectors& positions, const Vectors& velocities,
+                                    Vectors& forces)
+{
+  const double k = batch.stiffness;
+  const double c = batch.damping;
+  const double l0 = batch.rest_length;
+  Block force;
+  for_each_block(batch, [&](int i, int n) {
+    const Differences lengths(positions, i, batch.offset);
+    const Differences approaches(velocities, i, batch.offset);
+    for (int s = 0; s < n; ++s)
+    {
+      const Vector l = lengths[s];
+      const double inverse = inverse_length(l);
+      put(force, s, k + (c * approaches[s].dot(l) * inverse - k * l0) * inverse, l);
+    }
+    add_to_both_ends(force, i, batch.offset, n, forces);
+  });
 }
 
 }  // namespace
@@ -80,55 +144,28 @@ void add_spring_forces(const ClothModel& model, const Vectors& positions, const 
 {
   for (const SpringBatch& batch : model.springs)
   {
-    const double k = batch.stiffness;
-    const double c = batch.damping;
-    const double l0 = batch.rest_length;
-    Block l;
-    if (c == 0.0)
+    if (batch.damping == 0.0)
     {
-      for_each_block(batch, [&](int i, int n) {
-        differences(positions, i, batch.offset, n, l);
-        for (int s = 0; s < n; ++s)
-        {
-          const double tension = k - k * l0 * inverse_length(l.x[s], l.y[s], l.z[s]);
-          l.x[s] *= tension;
-          l.y[s] *= tension;
-          l.z[s] *= tension;
-        }
-        add_to_both_ends(l, i, batch.offset, n, forces);
-      });
-      continue;
+      add_elastic_forces(batch, positions, forces);
     }
-    Block w;
-    for_each_block(batch, [&](int i, int n) {
-      differences(positions, i, batch.offset, n, l);
-      differences(velocities, i, batch.offset, n, w);
-      for (int s = 0; s < n; ++s)
-      {
-        const double inverse = inverse_length(l.x[s], l.y[s], l.z[s]);
-        const double approach = (w.x[s] * l.x[s] + w.y[s] * l.y[s] + w.z[s] * l.z[s]) * inverse;
-        const double tension = k + (c * approach - k * l0) * inverse;
-        l.x[s] *= tension;
-        l.y[s] *= tension;
-        l.z[s] *= tension;
-      }
-      add_to_both_ends(l, i, batch.offset, n, forces);
-    });
+    else
+    {
+      add_elastic_and_damping_forces(batch, positions, velocities, forces);
+    }
   }
 }
 
 double elastic_energy(const ClothModel& model, const Vectors& positions)
 {
   double energy = 0.0;
-  Block l;
   for (const SpringBatch& batch : model.springs)
   {
     double squares = 0.0;
     for_each_block(batch, [&](int i, int n) {
-      differences(positions, i, batch.offset, n, l);
+      const Differences lengths(positions, i, batch.offset);
       for (int s = 0; s < n; ++s)
       {
-        const double extension = std::sqrt(l.x[s] * l.x[s] + l.y[s] * l.y[s] + l.z[s] * l.z[s]) - batch.rest_length;
+        const double extension = std::sqrt(lengths[s].dot(lengths[s])) - batch.rest_length;
         squares += extension * extension;
       }
     });
@@ -140,7 +177,6 @@ double elastic_energy(const ClothModel& model, const Vectors& positions)
 double max_strain(const ClothModel& model, const Vectors& positions)
 {
   double largest = 0.0;
-  Block l;
   for (const SpringBatch& batch : model.springs)
   {
     if (batch.kind == SpringKind::flex)
@@ -149,10 +185,10 @@ double max_strain(const ClothModel& model, const Vectors& positions)
     }
     double squared_length = 0.0;
     for_each_block(batch, [&](int i, int n) {
-      differences(positions, i, batch.offset, n, l);
+      const Differences lengths(positions, i, batch.offset);
       for (int s = 0; s < n; ++s)
       {
-        squared_length = std::max(squared_length, l.x[s] * l.x[s] + l.y[s] * l.y[s] + l.z[s] * l.z[s]);
+        squared_length = std::max(squared_length, lengths[s].dot(lengths[s]));
       }
     });
     largest = std::max(largest, std::sqrt(squared_length) / batch.rest_length - 1.0);
@@ -163,24 +199,24 @@ double max_strain(const ClothModel& model, const Vectors& positions)
 void add_stiffness_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
                            Vectors& product)
 {
-  Block l;
-  Block u;
+  Block change;
   for (const SpringBatch& batch : model.springs)
   {
     for_each_block(batch, [&](int i, int n) {
-      differences(positions, i, batch.offset, n, l);
-      differences(displacements, i, batch.offset, n, u);
+      const Differences lengths(positions, i, batch.offset);
+      const Differences approaches(displacements, i, batch.offset);
       for (int s = 0; s < n; ++s)
       {
-        const double inverse = inverse_length(l.x[s], l.y[s], l.z[s]);
+        const Vector l = lengths[s];
+        const Vector u = approaches[s];
+        const double inverse = inverse_length(l);
         const double across = batch.stiffness * std::max(0.0, 1.0 - batch.rest_length * inverse);
-        const double along =
-            (batch.stiffness - across) * inverse * inverse * (l.x[s] * u.x[s] + l.y[s] * u.y[s] + l.z[s] * u.z[s]);
-        u.x[s] = -(across * u.x[s] + along * l.x[s]);
-        u.y[s] = -(across * u.y[s] + along * l.y[s]);
-        u.z[s] = -(across * u.z[s] + along * l.z[s]);
+        const double along = (batch.stiffness - across) * inverse * inverse * l.dot(u);
+        change.x[s] = -(across * u.x + along * l.x);
+        change.y[s] = -(across * u.y + along * l.y);
+        change.z[s] = -(across * u.z + along * l.z);
       }
-      add_to_both_ends(u, i, batch.offset, n, product);
+      add_to_both_ends(change, i, batch.offset, n, product);
     });
   }
 }
