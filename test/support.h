@@ -2,6 +2,8 @@
 
 // What tests of several rooms share.
 
+#include <limits>
+#include <memory>
 #include <ostream>
 #include <random>
 #include <string>
@@ -38,6 +40,21 @@ inline void PrintTo(const MethodRow& row, std::ostream* stream)
 inline std::string name_of_method(const testing::TestParamInfo<MethodRow>& info)
 {
   return info.param.name;
+}
+
+/// Settings with which a method does what its row says at every step that it is given: dopri5 takes it as it is, xpbd
+/// makes no substeps of it, projective iterates until nothing moves.
+inline MethodSettings one_step_a_call(const MethodRow& row)
+{
+  MethodSettings settings;
+  settings.tolerance = std::numeric_limits<double>::infinity();
+  settings.iterations = std::string(row.name) == "projective" ? 8 : 1;
+  return settings;
+}
+
+inline std::unique_ptr<Method> make(const MethodRow& row)
+{
+  return row.make(one_step_a_call(row));
 }
 
 /// Reproducible numbers in [-1, 1].

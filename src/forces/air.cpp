@@ -7,7 +7,7 @@ Air::Air(const AirProperties& properties) : properties_(properties)
 {
 }
 
-bool Air::needs_normals(const ClothModel& model) const
+bool Air::is_coupled(const ClothModel& model) const
 {
   return properties_.wind_coupling > 0.0 && !model.is_chain();
 }
@@ -22,7 +22,7 @@ void Air::add_forces(const ClothModel& model, const Vectors& positions, const Ve
       forces.col(d).array() -= properties_.viscous_damping * model.areas.array() * velocities.col(d).array();
     }
   }
-  if (!needs_normals(model))
+  if (!is_coupled(model))
   {
     return;
   }
@@ -53,7 +53,7 @@ void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, dou
           model.masses.array() / (model.masses.array() + h * properties_.viscous_damping * model.areas.array());
     }
   }
-  if (!needs_normals(model))
+  if (!is_coupled(model))
   {
     return;
   }
@@ -64,9 +64,27 @@ void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, dou
   velocities.array() += normals_.array().colwise() * normal_speeds_;
 }
 
+void Air::add_damping_product(const ClothModel& model, const Vectors& normals, const Vectors& u, Vectors& product) const
+{
+  if (properties_.viscous_damping > 0.0)
+  {
+    product.array() += u.array().colwise() * (properties_.viscous_damping * model.areas.array());
+  }
+  if (is_coupled(model))
+  {
+    const Eigen::ArrayXd along = normals.cwiseProduct(u).rowwise().sum().array() * model.areas.array();
+    product.array() += normals.array().colwise() * (properties_.wind_coupling * along);
+  }
+}
+
+double Air::least_damping_rate(const ClothModel& model) const
+{
+  return properties_.viscous_damping * (model.areas.array() / model.masses.array()).minCoeff();
+}
+
 double Air::damping_rate(const ClothModel& model) const
 {
-  const double wind_coupling = needs_normals(model) ? properties_.wind_coupling : 0.0;
+  const double wind_coupling = is_coupled(model) ? properties_.wind_coupling : 0.0;
   return (properties_.viscous_damping + wind_coupling) * (model.areas.array() / model.masses.array()).maxCoeff();
 }
 

@@ -13,12 +13,23 @@ Dynamics::Dynamics(ClothModel model, const Eigen::Vector3d& gravity, const AirPr
 {
 }
 
-void Dynamics::forces_without_air(double /*time*/, const Vectors& positions, const Vectors& velocities,
-                                  Vectors& forces) const
+void Dynamics::external_forces(double /*time*/, Vectors& forces) const
 {
   forces.setZero(model_.nodes(), 3);
   add_gravity(model_, gravity_, forces);
+}
+
+void Dynamics::forces_without_air(double time, const Vectors& positions, const Vectors& velocities,
+                                  Vectors& forces) const
+{
+  external_forces(time, forces);
   add_spring_forces(model_, positions, velocities, forces);
+}
+
+void Dynamics::forces(double time, const Vectors& positions, const Vectors& velocities, Vectors& forces) const
+{
+  forces_without_air(time, positions, velocities, forces);
+  air_.add_forces(model_, positions, velocities, forces);
 }
 
 void Dynamics::accelerations_of(const Vectors& forces, Vectors& accelerations) const
@@ -30,8 +41,7 @@ void Dynamics::accelerations_of(const Vectors& forces, Vectors& accelerations) c
 void Dynamics::accelerations(double time, const Vectors& positions, const Vectors& velocities,
                              Vectors& accelerations) const
 {
-  forces_without_air(time, positions, velocities, accelerations);
-  air_.add_forces(model_, positions, velocities, accelerations);
+  forces(time, positions, velocities, accelerations);
   accelerations_of(accelerations, accelerations);
 }
 

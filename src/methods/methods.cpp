@@ -9,7 +9,9 @@ namespace cloth
 
 const std::vector<MethodRow>& methods()
 {
-  static const std::vector<MethodRow> table{ symplectic_euler, velocity_verlet, rk4 };
+  static const std::vector<MethodRow> table{ explicit_euler, symplectic_euler, velocity_verlet,   midpoint,
+                                             rk4,            dopri5,           implicit_euler,    implicit_midpoint,
+                                             tr_bdf2,        projective,       xpbd };
   return table;
 }
 
@@ -20,17 +22,9 @@ const MethodRow* find_method(const std::string& name)
   return found == table.end() ? nullptr : &*found;
 }
 
-double network_stability_limit(const MethodRow& method, const Mode& stiffest)
+double no_stability_limit(const Mode& /*mode*/)
 {
-  constexpr int parts = 32;
-  double least = std::numeric_limits<double>::infinity();
-  for (int p = 0; p <= parts; ++p)
-  {
-    const double part = static_cast<double>(p) / parts;
-    const Mode mode{ stiffest.frequency, stiffest.air_damping, part * stiffest.spring_damping };
-    least = std::min(least, method.stability_limit(mode));
-  }
-  return least;
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace cloth

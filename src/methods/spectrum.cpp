@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace cloth
 namespace
 {
 
-constexpr int lanczos_steps = 16;
-constexpr double margin = 1.02;
+constexpr int most_lanczos_steps = 32;
+constexpr double lanczos_residual = 0.005;  ///< small enough, in parts of the eigenvalue
+constexpr double margin = 1.01;
 
 Vectors noise(int nodes)
 {
@@ -28,15 +30,21 @@ Vectors noise(int nodes)
   return vectors;
 }
 
-/// The largest eigenvalue of the symmetric tridiagonal matrix that Lanczos made, and how far an eigenvalue of the
-/// whole matrix can be from it.
-double ritz_value_and_residual(const std::vector<double>& diagonal, const std::vector<double>& beside)
+/// An eigenvalue of a large matrix is at most `residual` away from `value`.
+struct RitzValue
+{
+  double value = 0.0;
+  double residual = 0.0;
+};
+
+/// The largest eigenvalue of the symmetric tridiagonal matrix that Lanczos made.
+RitzValue largest_ritz_value(const std::vector<double>& diagonal, const std::vector<double>& beside)
 {
   const Eigen::Index n = static_cast<Eigen::Index>(diagonal.size());
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), n),
                                 Eigen::Map<const Eigen::VectorXd>(beside.data(), n - 1));
-  return solver.eigenvalues()[n - 1] + beside.back() * std::abs(solver.eigenvectors()(n - 1, n - 1));
+  return { solver.eigenvalues()[n - 1], beside.back() * std::abs(solver.eigenvectors()(n - 1, n - 1)) };
 }
 
 /// Lanczos for B = M^-1/2 K M^-1/2, which has the eigenvalues of M^-1 K.
@@ -56,7 +64,8 @@ double lanczos_estimate(const Dynamics& dynamics, const Vectors& positions)
   std::vector<double> diagonal;
   std::vector<double> beside;
   double beta = 0.0;
-  for (int step = 0; step < lanczos_steps; ++step)
+  RitzValue ritz;
+  for (int step = 0; step < most_lanczos_steps; ++step)
   {
     product.setZero();
     add_stiffness_product(model, positions, q.array().colwise() / roots, product);
@@ -66,61 +75,15 @@ double lanczos_estimate(const Dynamics& dynamics, const Vectors& positions)
     product -= diagonal.back() * q + beta * previous;
     beta = product.norm();
     beside.push_back(beta);
-    if (beta <= 1e-12 * std::abs(diagonal.front()))
+    ritz = largest_ritz_value(diagonal, beside);
+    if (ritz.residual <= lanczos_residual * ritz.value)
     {
       break;
     }
     previous.swap(q);
     q = product / beta;
   }
-  return ritz_value_and_residual(diagonal, beside);
-}
-
-struct Bounds
-{
-  double stiffness = 0.0;
-  double damping = 0.0;
-};
-
-Bounds bounds_by_blocks(const Dynamics& dynamics, const Vectors& positions)
-{
-  const ClothModel& model = dynamics.model();
-  std::vector<Eigen::Matrix3d> stiffness(static_cast<size_t>(model.nodes()), Eigen::Matrix3d::Zero());
-  std::vector<Eigen::Matrix3d> damping = stiffness;
-  for (const SpringBatch& batch : model.springs)
-  {
-    for_each_spring(batch, [&](int i, int j) {
-      const Eigen::Vector3d l = (positions.row(j) - positions.row(i)).transpose();
-      const double length = l.norm();
-      if (length == 0.0)
-      {
-        return;
-      }
-      const Eigen::Matrix3d along = l * l.transpose() / (length * length);
-      const double across = std::max(0.0, 1.0 - batch.rest_length / length);
-      const Eigen::Matrix3d block = batch.stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
-      for (const int node : { i, j })
-      {
-        stiffness[static_cast<size_t>(node)] += block;
-        damping[static_cast<size_t>(node)] += batch.damping * along;
-      }
-    });
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  const auto largest_eigenvalue = [&solver](const Eigen::Matrix3d& block) {
-    return solver.computeDirect(block, Eigen::EigenvaluesOnly).eigenvalues()[2];
-  };
-  Bounds bounds;
-  for (int i = 0; i < model.nodes(); ++i)
-  {
-    if (!dynamics.pins().holds(i))
-    {
-      const size_t node = static_cast<size_t>(i);
-      bounds.stiffness = std::max(bounds.stiffness, 2.0 / model.masses[i] * largest_eigenvalue(stiffness[node]));
-      bounds.damping = std::max(bounds.damping, 2.0 / model.masses[i] * largest_eigenvalue(damping[node]));
-    }
-  }
-  return bounds;
+  return ritz.value + ritz.residual;
 }
 
 double largest_damping_ratio(const ClothModel& model)
@@ -133,22 +96,146 @@ double largest_damping_ratio(const ClothModel& model)
   return largest;
 }
 
-}  // namespace
-
-Mode stiffest_mode(const Dynamics& dynamics, const Vectors& positions)
+/// Sums of 3 x 3 matrices over the springs of each node.
+class NodeBlocks
 {
-  const Bounds bounds = bounds_by_blocks(dynamics, positions);
-  const double stiffness = std::min(bounds.stiffness, margin * lanczos_estimate(dynamics, positions));
-  Mode mode;
-  mode.frequency = std::sqrt(stiffness);
-  mode.air_damping = dynamics.air().damping_rate(dynamics.model());
-  mode.spring_damping = std::min(bounds.damping, largest_damping_ratio(dynamics.model()) * stiffness);
-  return mode;
+public:
+  explicit NodeBlocks(const ClothModel& model)
+    : blocks_(static_cast<size_t>(model.nodes()), Eigen::Matrix3d::Zero())
+  {
+  }
+
+  void add(int i, int j, const Eigen::Matrix3d& block)
+  {
+    blocks_[static_cast<size_t>(i)] += block;
+    blocks_[static_cast<size_t>(j)] += block;
+  }
+
+  /// The largest of 2/m_i times the largest eigenvalue of node i's block, over the free nodes.
+  double bound(const Dynamics& dynamics) const
+  {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    double largest = 0.0;
+    for (int i = 0; i < dynamics.model().nodes(); ++i)
+    {
+      if (!dynamics.pins().holds(i))
+      {
+        const Eigen::Matrix3d& block = blocks_[static_cast<size_t>(i)];
+        const double eigenvalue = solver.computeDirect(block, Eigen::EigenvaluesOnly).eigenvalues()[2];
+        largest = std::max(largest, 2.0 / dynamics.model().masses[i] * eigenvalue);
+      }
+    }
+    return largest;
+  }
+
+private:
+  std::vector<Eigen::Matrix3d> blocks_;
+};
+
+/// Calls visit(batch, i, j, along, across) for every spring that has a direction: n n^T, and the part of K across it
+/// that is not negative, N/m.
+template <typename Visit>
+void for_each_stiffness(const ClothModel& model, const Vectors& positions, Visit&& visit)
+{
+  for (const SpringBatch& batch : model.springs)
+  {
+    for_each_spring(batch, [&](int i, int j) {
+      const Eigen::Vector3d l = (positions.row(j) - positions.row(i)).transpose();
+      const double length = l.norm();
+      if (length > 0.0)
+      {
+        const Eigen::Matrix3d along = l * l.transpose() / (length * length);
+        const double stretch = std::max(0.0, 1.0 - batch.rest_length / length);
+        visit(batch, i, j, along, batch.stiffness * stretch * (Eigen::Matrix3d::Identity() - along));
+      }
+    });
+  }
 }
+
+/// Bounds for the largest eigenvalues of M^-1 K_u and M^-1 C, see Spectrum.
+struct DampingBounds
+{
+  double undamped_stiffness = 0.0;
+  double damping = 0.0;
+};
+
+DampingBounds damping_bounds(const Dynamics& dynamics, const Vectors& positions, double damping_ratio)
+{
+  NodeBlocks undamped(dynamics.model());
+  NodeBlocks damping(dynamics.model());
+  for_each_stiffness(dynamics.model(), positions,
+                     [&](const SpringBatch& batch, int i, int j, const Eigen::Matrix3d& along,
+                         const Eigen::Matrix3d& across) {
+                       const double damped_stiffness = damping_ratio > 0.0 ? batch.damping / damping_ratio : 0.0;
+                       undamped.add(i, j, (batch.stiffness - damped_stiffness) * along + across);
+                       damping.add(i, j, batch.damping * along);
+                     });
+  return { undamped.bound(dynamics), damping.bound(dynamics) };
+}
+
+}  // namespace
 
 double stiffness_bound(const Dynamics& dynamics, const Vectors& positions)
 {
-  return bounds_by_blocks(dynamics, positions).stiffness;
+  NodeBlocks blocks(dynamics.model());
+  for_each_stiffness(dynamics.model(), positions,
+                     [&](const SpringBatch& batch, int i, int j, const Eigen::Matrix3d& along,
+                         const Eigen::Matrix3d& across) { blocks.add(i, j, batch.stiffness * along + across); });
+  return blocks.bound(dynamics);
+}
+
+Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions)
+{
+  const ClothModel& model = dynamics.model();
+  const double stiffness =
+      std::min(stiffness_bound(dynamics, positions), margin * lanczos_estimate(dynamics, positions));
+  Spectrum spectrum;
+  spectrum.frequency = std::sqrt(stiffness);
+  spectrum.damping_ratio = largest_damping_ratio(model);
+  const DampingBounds bounds = damping_bounds(dynamics, positions, spectrum.damping_ratio);
+  // A spring at rest is stretched by a rounding error at most, which stiffens nothing.
+  const double undamped = bounds.undamped_stiffness > 1e-12 * stiffness ? bounds.undamped_stiffness : 0.0;
+  spectrum.undamped_frequency = std::sqrt(std::min(stiffness, undamped));
+  spectrum.most_spring_damping = std::min(bounds.damping, spectrum.damping_ratio * stiffness);
+  spectrum.least_air_damping = dynamics.air().least_damping_rate(model);
+  spectrum.most_air_damping = dynamics.air().damping_rate(model);
+  return spectrum;
+}
+
+namespace
+{
+
+/// The least limit of modes of one frequency, however they are damped.
+double limit_at(const MethodRow& method, const Spectrum& spectrum, double frequency)
+{
+  constexpr int parts = 16;
+  const double squared = frequency * frequency;
+  const double most = std::min(spectrum.most_spring_damping, spectrum.damping_ratio * squared);
+  const double undamped = spectrum.undamped_frequency * spectrum.undamped_frequency;
+  const double least = std::min(most, spectrum.damping_ratio * std::max(0.0, squared - undamped));
+  double limit = std::numeric_limits<double>::infinity();
+  for (const double air : { spectrum.least_air_damping, spectrum.most_air_damping })
+  {
+    for (int p = 0; p <= parts; ++p)
+    {
+      const double spring = least + (most - least) * p / parts;
+      limit = std::min(limit, method.stability_limit({ frequency, air, spring }));
+    }
+  }
+  return limit;
+}
+
+}  // namespace
+
+double network_stability_limit(const MethodRow& method, const Spectrum& spectrum)
+{
+  constexpr int parts = 16;
+  double limit = limit_at(method, spectrum, spectrum.undamped_frequency);
+  for (int p = 0; p <= parts; ++p)
+  {
+    limit = std::min(limit, limit_at(method, spectrum, spectrum.frequency * p / parts));
+  }
+  return limit;
 }
 
 }  // namespace cloth

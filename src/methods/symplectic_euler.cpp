@@ -12,14 +12,16 @@ namespace
 class SymplecticEuler : public Method
 {
 public:
-  StepCost step(const Dynamics& dynamics, double h, ClothState& state) override
+  StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
     dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
     state.velocities += h * accelerations_;
     state.positions += h * state.velocities;
     state.time += h;
     dynamics.pins().impose(state.time, state.positions, state.velocities);
-    return { 1, 0 };
+    StepReport report;
+    report.force_evaluations = 1;
+    return report;
   }
 
 private:
@@ -43,9 +45,12 @@ double stability_limit(const Mode& mode)
 const MethodRow symplectic_euler{ "symplectic_euler",
                                   1,
                                   stability_limit,
+                                  { 0.0, 0 },
                                   true,
+                                  false,
                                   1,
+                                  0,
                                   "neighbouring nodes swing against each other, every step further",
-                                  [] { return std::unique_ptr<Method>(new SymplecticEuler); } };
+                                  make_plain<SymplecticEuler> };
 
 }  // namespace cloth

@@ -17,14 +17,15 @@ namespace
 class VelocityVerlet : public Method
 {
 public:
-  StepCost step(const Dynamics& dynamics, double h, ClothState& state) override
+  StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
-    StepCost cost{ 1, 0 };
+    StepReport report;
+    report.force_evaluations = 1;
     if (!accelerations_known_)
     {
       dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
       accelerations_known_ = true;
-      ++cost.force_evaluations;
+      ++report.force_evaluations;
     }
     const double end = state.time + h;
     predicted_ = state.velocities + h * accelerations_;
@@ -42,7 +43,7 @@ public:
     dynamics.pins().clear_held(accelerations_);
     dynamics.pins().impose_velocities(end, state.velocities);
     state.time = end;
-    return cost;
+    return report;
   }
 
   void restart() override
@@ -75,9 +76,12 @@ double stability_limit(const Mode& mode)
 const MethodRow velocity_verlet{ "velocity_verlet",
                                  2,
                                  stability_limit,
+                                 { 0.0, 0 },
                                  true,
+                                 false,
                                  1,
+                                 0,
                                  "neighbouring nodes swing against each other, every step further",
-                                 [] { return std::unique_ptr<Method>(new VelocityVerlet); } };
+                                 make_plain<VelocityVerlet> };
 
 }  // namespace cloth

@@ -142,16 +142,22 @@ std::vector<Parameter<SceneParams>> make_table()
                   CLOTH_MEMBER(air.wind_coupling)),
     Scene::vector("air.wind", "m/s", any, "velocity of the air: the way it moves", CLOTH_MEMBER(air.wind)),
 
-    Scene::choice("solver.method", method_words(),
-                  { "explicit_euler", "midpoint", "dopri5", "implicit_euler", "implicit_midpoint", "tr_bdf2",
-                    "projective", "xpbd" },
-                  "time-stepping method; auto is velocity_verlet", CLOTH_MEMBER(solver.method)),
+    Scene::choice("solver.method", method_words(), {}, "time-stepping method; auto is velocity_verlet",
+                  CLOTH_MEMBER(solver.method)),
     Scene::number(
         "solver.time_step", "s", Range{ 1e-9, true, infinity, true },
-        "largest step; 0: 0.9 of the method's stability limit as the cloth deforms, 1/240 where there is no limit",
+        "largest step; 0: 0.9 of the method's stability limit as the cloth deforms, 1/240 where there is no limit; "
+        "dopri5: the largest step, 0: none",
         CLOTH_MEMBER(solver.time_step)),
-    Scene::number("solver.tolerance", "m", positive, "position error that auto may make over 1 s; not used yet",
+    Scene::number("solver.tolerance", "m", positive,
+                  "dopri5: bounds the estimated position error of a step; auto does not use it yet",
                   CLOTH_MEMBER(solver.tolerance)),
+    Scene::integer("solver.iterations", 1, 10000,
+                   "projective: local-global iterations a step; xpbd: substeps a step", CLOTH_MEMBER(solver.iterations)),
+    Scene::number("solver.compliance", "", unit_interval,
+                  "xpbd: factor on the springs' compliance 1/k; 1: stiffness means the same as in every other method, "
+                  "0: position-based dynamics",
+                  CLOTH_MEMBER(solver.compliance)),
 
     for_node(Scene::number("rate", "Hz", Range{ 0.0, false, 1000.0 }, "ticks a second, one published mesh each",
                            CLOTH_MEMBER(node.rate))),

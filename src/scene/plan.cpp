@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cloth_sim/scene/pin_selection.h"
+#include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/start_state.h"
 #include "cloth_sim/scene/yaml_text.h"
 
@@ -103,11 +104,30 @@ PlanLine pin_line(const std::vector<Pin>& pins)
                " of them moving" };
 }
 
+/// What the scene's settings make of a method, to be added to its name.
+std::string settings_of(const SolverParams& solver)
+{
+  if (solver.method == "dopri5")
+  {
+    return "; each step's error at most " + format_number(solver.tolerance) + " m";
+  }
+  if (solver.method == "projective")
+  {
+    return "; " + counted(static_cast<size_t>(solver.iterations), "local-global iteration") + " a step";
+  }
+  if (solver.method == "xpbd")
+  {
+    return "; " + counted(static_cast<size_t>(solver.iterations), "substep") + " a step, the springs' compliance times " +
+           format_number(solver.compliance) + (solver.compliance == 0.0 ? ": position-based dynamics" : "");
+  }
+  return "";
+}
+
 PlanLine method_line(const SceneParams& scene)
 {
   if (scene.solver.method != "auto")
   {
-    return { "method", true, scene.solver.method + ", as the scene says" };
+    return { "method", true, scene.solver.method + ", as the scene says" + settings_of(scene.solver) };
   }
   return { "method", true,
            std::string(automatic_method) + ", which is what auto takes; the tolerance of " +
@@ -118,6 +138,12 @@ PlanLine method_line(const SceneParams& scene)
 
 Plan make_plan(const SceneParams& scene)
 {
+  if (scene.solver.compliance != 1.0 && scene.solver.method != "xpbd")
+  {
+    throw SceneError("solver.compliance: " + format_number(scene.solver.compliance) +
+                     ", but only xpbd has a compliance of its own; 1 is allowed with solver.method " +
+                     scene.solver.method);
+  }
   Plan plan;
   plan.scene = scene;
   plan.method = find_method(scene.solver.method == "auto" ? automatic_method : scene.solver.method);
@@ -149,11 +175,47 @@ Simulation build_simulation(const Plan& plan)
   setup.air = scene.air;
   setup.strain_limit = scene.strain_limit;
   setup.method = plan.method;
+  setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance };
   setup.time_step = scene.solver.time_step;
   setup.start = start_state(scene.start, setup.model);
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
-  return Simulation(std::move(setup));
+  Simulation simulation(std::move(setup));
+  if (!(simulation.time_step() >= Simulation::shortest_step))
+  {
+    throw SceneError("solver.time_step: 0, to be chosen from the stability limit, but no step of " +
+                     std::string(simulation.method().name) +
+                     " is stable for this scene, since nothing damps some of its modes; damp the air and the springs, "
+                     "give a step and watch it grow, or take another method");
+  }
+  return simulation;
 }
+
+namespace
+{
+
+std::string described_step(double given, const Simulation& simulation)
+{
+  const std::string name = simulation.method().name;
+  const std::string limit = format_number(simulation.stability_limit()) + " s";
+  if (simulation.method().is_adaptive)
+  {
+    return "chosen by " + name + (given > 0.0 ? ", at most " + format_number(given) + " s" : "") +
+           "; steps beyond its stability limit, " + limit + ", would be rejected";
+  }
+  const std::string step = format_number(simulation.time_step()) + " s, ";
+  if (given > 0.0)
+  {
+    return step + "as the scene says; the stability limit of " + name + " is " + limit;
+  }
+  if (std::isfinite(simulation.stability_limit()))
+  {
+    return step + format_number(Simulation::limit_share) + " of the stability limit of " + name + ", " + limit +
+           ", and with it as the sheet deforms";
+  }
+  return step + "1/240 s, since nothing here limits the step of " + name;
+}
+
+}  // namespace
 
 std::vector<std::string> describe(const Plan& plan, const Simulation& simulation)
 {
@@ -162,28 +224,13 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
   {
     lines.push_back(line.part + ": " + (line.kept ? "kept, " : "left out, ") + line.reason);
   }
-  const std::string name = simulation.method().name;
-  const std::string limit = format_number(simulation.stability_limit()) + " s";
-  const std::string step = "time step: " + format_number(simulation.time_step()) + " s, ";
-  if (plan.scene.solver.time_step > 0.0)
-  {
-    lines.push_back(step + "as the scene says; the stability limit of " + name + " is " + limit);
-  }
-  else if (std::isfinite(simulation.stability_limit()))
-  {
-    lines.push_back(step + format_number(Simulation::limit_share) + " of the stability limit of " + name + ", " +
-                    limit + ", and with it as the sheet deforms");
-  }
-  else
-  {
-    lines.push_back(step + "1/240 s, since nothing here limits the step of " + name);
-  }
+  lines.push_back("time step: " + described_step(plan.scene.solver.time_step, simulation));
   return lines;
 }
 
 std::string time_step_warning(const Simulation& simulation)
 {
-  if (simulation.time_step() <= simulation.stability_limit())
+  if (simulation.method().is_adaptive || simulation.time_step() <= simulation.stability_limit())
   {
     return {};
   }

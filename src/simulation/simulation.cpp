@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -40,7 +41,7 @@ Simulation::Simulation(SimulationSetup setup)
   {
     throw std::invalid_argument("the start state must have a position and a velocity for every node");
   }
-  method_ = method_row_->make();
+  method_ = method_row_->make(setup.method_settings);
   for (const Pin& pin : setup.pins)
   {
     dynamics_.pins().hold(pin);
@@ -51,43 +52,76 @@ Simulation::Simulation(SimulationSetup setup)
 
 void Simulation::step(double h)
 {
-  const StepCost cost = method_->step(dynamics_, h, state_);
+  const double begin = state_.time;
+  const StepReport report = method_->step(dynamics_, h, state_);
+  last_step_ = state_.time - begin;
   if (strain_limit_.active())
   {
-    const StrainLimit::Report report = strain_limit_.apply(model(), pins(), h, state_);
-    if (report.moved)
+    const StrainLimit::Report limit_report = strain_limit_.apply(model(), pins(), last_step_, state_);
+    if (limit_report.moved)
     {
       method_->restart();
     }
-    counters_.limit_sweeps += static_cast<std::uint64_t>(report.sweeps);
+    counters_.limit_sweeps += static_cast<std::uint64_t>(limit_report.sweeps);
   }
-  last_step_ = h;
-  counters_.force_evaluations += static_cast<std::uint64_t>(cost.force_evaluations);
-  counters_.linear_solves += static_cast<std::uint64_t>(cost.linear_solves);
+  counters_.force_evaluations += static_cast<std::uint64_t>(report.force_evaluations);
+  counters_.linear_solves += static_cast<std::uint64_t>(report.linear_solves);
+  counters_.rejected_steps += static_cast<std::uint64_t>(report.rejected_steps);
+  counters_.unconverged_steps += report.converged ? 0 : 1;
   ++counters_.steps;
 }
 
 bool Simulation::advance_to(double time)
 {
-  double largest_step = time_step();
+  double longest = longest_step();
   while (!divergence_ && state_.time < time)
   {
-    const double begin = state_.time;
-    const std::uint64_t steps = steps_for(time - begin, largest_step);
-    const double h = (time - begin) / static_cast<double>(steps);
-    const std::uint64_t until_check = std::min<std::uint64_t>(steps, steps_between_checks);
-    for (std::uint64_t s = 1; s <= until_check; ++s)
+    if (!(longest >= shortest_step))
     {
-      step(h);
-      state_.time = s == steps ? time : begin + static_cast<double>(s) * h;
+      divergence_ = Divergence{ state_.time, 0, "no step of " + std::string(method_row_->name) + " is stable any more" };
+      break;
+    }
+    if (method_row_->is_adaptive)
+    {
+      take_adaptive_steps(time, longest);
+    }
+    else
+    {
+      take_equal_steps(time, longest);
     }
     keep_or_restore();
     if (state_.time < time)
     {
-      largest_step = std::min(largest_step, time_step());
+      longest = std::min(longest, longest_step());
     }
   }
   return !divergence_;
+}
+
+void Simulation::take_equal_steps(double time, double longest)
+{
+  const double begin = state_.time;
+  const std::uint64_t steps = steps_for(time - begin, longest);
+  const double h = (time - begin) / static_cast<double>(steps);
+  const std::uint64_t until_check = std::min<std::uint64_t>(steps, steps_between_checks);
+  for (std::uint64_t s = 1; s <= until_check; ++s)
+  {
+    step(h);
+    state_.time = s == steps ? time : begin + static_cast<double>(s) * h;
+  }
+}
+
+void Simulation::take_adaptive_steps(double time, double longest)
+{
+  for (int s = 0; s < steps_between_checks && state_.time < time; ++s)
+  {
+    const double missing = time - state_.time;
+    step(std::min(longest, missing));
+    if (time - state_.time <= 1e-12 * missing)
+    {
+      state_.time = time;
+    }
+  }
 }
 
 void Simulation::keep_or_restore()
@@ -111,14 +145,23 @@ void Simulation::changed_from_outside()
 
 double Simulation::stability_limit() const
 {
-  return network_stability_limit(*method_row_, stiffest_mode(dynamics_, state_.positions));
+  return network_stability_limit(*method_row_, spectrum_of(dynamics_, state_.positions));
 }
 
 double Simulation::time_step() const
 {
+  return method_row_->is_adaptive && last_step_ > 0.0 ? last_step_ : longest_step();
+}
+
+double Simulation::longest_step() const
+{
   if (given_time_step_ > 0.0)
   {
     return given_time_step_;
+  }
+  if (method_row_->is_adaptive)
+  {
+    return std::numeric_limits<double>::infinity();
   }
   const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
   return std::isfinite(limit) ? limit_share * limit : unlimited_time_step;

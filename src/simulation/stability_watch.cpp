@@ -18,7 +18,7 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
   const double bound = is_fresh && state.time == time_ ? bound_ : stiffness_bound(dynamics, state.positions);
   if (!is_fresh || bound > allowed_increase * bound_)
   {
-    limit_ = network_stability_limit(method, stiffest_mode(dynamics, state.positions));
+    limit_ = network_stability_limit(method, spectrum_of(dynamics, state.positions));
     bound_ = bound;
     time_ = state.time;
     known_ = true;

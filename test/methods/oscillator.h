@@ -16,7 +16,7 @@ public:
   Oscillator(const char* method, double frequency, double air_ratio, double spring_ratio)
     : dynamics_(make_sheet(sheet(frequency, spring_ratio)), Eigen::Vector3d::Zero(),
                 { air_viscosity(frequency, air_ratio), 0.0, Eigen::Vector3d::Zero() })
-    , method_(find_method(method)->make())
+    , method_(make(*find_method(method)))
   {
     const Vectors& rest = dynamics_.model().rest_positions;
     dynamics_.pins().hold(still_pin("top", { 0 }, rest));

@@ -41,11 +41,20 @@ public:
   /// implicit step of length h, positions held. Velocities in m/s, h in s.
   void damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const;
 
+  /// Adds -df/dv u = C_dis u + C_vi (n . u) n to every node, in N for `u` in m/s; `normals` as `node_normals` has them
+  /// where `is_coupled`, else not looked at. The derivative by the positions, through the normals, is left out: see
+  /// SpringJacobian.
+  void add_damping_product(const ClothModel& model, const Vectors& normals, const Vectors& u, Vectors& product) const;
+
+  /// The air acts along the normals of this model's nodes.
+  bool is_coupled(const ClothModel& model) const;
+
+  /// The smallest rate at which the air slows a node in any direction, C_dis / m, 1/s.
+  double least_damping_rate(const ClothModel& model) const;
   /// The largest (C_dis + C_vi) / m of any node, 1/s: the fastest rate at which the air slows a node.
   double damping_rate(const ClothModel& model) const;
 
 private:
-  bool needs_normals(const ClothModel& model) const;
   /// The normals, and n . (u - v) of every node.
   void find_normal_speeds(const ClothModel& model, const Vectors& positions, const Vectors& velocities) const;
 

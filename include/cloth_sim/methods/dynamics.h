@@ -42,9 +42,14 @@ public:
     return pins_;
   }
 
-  /// The force on every node but for the air's: springs and gravity, N. `forces` is overwritten.
-  virtual void forces_without_air(double time, const Vectors& positions, const Vectors& velocities,
-                                  Vectors& forces) const;
+  /// The forces that depend on time alone, N: gravity. `forces` is overwritten.
+  virtual void external_forces(double time, Vectors& forces) const;
+
+  /// The force on every node but for the air's: springs and external forces, N. `forces` is overwritten.
+  void forces_without_air(double time, const Vectors& positions, const Vectors& velocities, Vectors& forces) const;
+
+  /// The force on every node, N. `forces` is overwritten.
+  void forces(double time, const Vectors& positions, const Vectors& velocities, Vectors& forces) const;
 
   /// M^-1 f, in m/s2, zero for pinned nodes. May be done in place.
   void accelerations_of(const Vectors& forces, Vectors& accelerations) const;

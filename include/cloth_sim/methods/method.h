@@ -10,11 +10,21 @@
 namespace cloth
 {
 
-/// What a step cost.
-struct StepCost
+/// What a scene may ask of a method. Each method reads what it needs.
+struct MethodSettings
 {
-  int force_evaluations = 0;
+  double tolerance = 1e-3;  ///< m; the most that an adaptive method's error estimate may be in a step
+  int iterations = 10;      ///< projective: local-global iterations a step; xpbd: substeps a step
+  double compliance = 1.0;  ///< xpbd: factor on the springs' compliance 1/k; 0: position-based dynamics
+};
+
+/// What a step cost, and whether it is what the method promises.
+struct StepReport
+{
+  int force_evaluations = 0;  ///< or passes over all springs of like cost
   int linear_solves = 0;
+  int rejected_steps = 0;  ///< tried and thrown away because the error estimate was too large
+  bool converged = true;   ///< false: the step's equations were left with a residual above the method's bound
 };
 
 /// A time-stepping method at work on one cloth.
@@ -23,8 +33,8 @@ class Method
 public:
   virtual ~Method() = default;
 
-  /// Advances `state` by h seconds, pins included.
-  virtual StepCost step(const Dynamics& dynamics, double h, ClothState& state) = 0;
+  /// Advances `state` by h seconds, pins included; an adaptive method by at most h.
+  virtual StepReport step(const Dynamics& dynamics, double h, ClothState& state) = 0;
 
   /// Forgets what was kept from the last step. To be called whenever something other than the method changed the
   /// state, the pins or the forces.
@@ -41,26 +51,33 @@ struct Mode
   double spring_damping = 0.0;  ///< c/m of internal damping, 1/s
 };
 
+/// What a step of length h does to the energy of an undamped mode, on average over its swing: it changes by the part
+/// factor * (omega h)^power, for small omega h. Factor 0: by nothing, as long as the step is stable.
+struct EnergyDrift
+{
+  double factor;
+  int power;
+};
+
 /// A row of the table of methods: what it is called, promises and costs.
 struct MethodRow
 {
   const char* name;                             ///< in scene files; also the name of its source file
   int order;                                    ///< of the error in positions and velocities
-  double (*stability_limit)(const Mode& mode);  ///< largest stable step, s; infinite where there is none
-  bool conserves_angular_momentum;              ///< exactly, of a free undamped network (linear momentum: all do)
-  int force_evaluations;                        ///< a step
-  const char* failure;                          ///< what is seen beyond the stability limit
-  std::unique_ptr<Method> (*make)();
+  double (*stability_limit)(const Mode& mode);  ///< largest stable step, s; infinite: none; 0: no step is stable
+  EnergyDrift energy_drift;
+  bool conserves_angular_momentum;  ///< exactly, of a free undamped network (linear momentum: all do)
+  bool is_adaptive;                 ///< takes steps of its own choice, up to the given one
+  int force_evaluations;            ///< a step; of a method that solves, the least
+  int linear_solves;                ///< a step; of a method that solves, the least
+  const char* failure;              ///< what is seen where it fails
+  std::unique_ptr<Method> (*make)(const MethodSettings& settings);
 };
 
-/// All methods that are built.
+/// All methods.
 const std::vector<MethodRow>& methods();
 
 /// The row of that name, or null.
 const MethodRow* find_method(const std::string& name);
-
-/// The largest step that is stable for a network whose stiffest mode is `stiffest` and whose other modes may be
-/// damped by any part of its rates: the least limit over them, s.
-double network_stability_limit(const MethodRow& method, const Mode& stiffest);
 
 }  // namespace cloth

@@ -6,21 +6,39 @@
 namespace cloth
 {
 
-/// The stiffest mode of a network, linearised about `positions` (m), pinned nodes at rest. Springs under compression
-/// count without their destabilising part (see `add_stiffness_product`).
+/// What is known of the modes of a network, linearised about some positions with pinned nodes at rest: each has a
+/// frequency omega up to `frequency`, is damped by the air at a rate between the two given ones, and by its springs at
 ///
-/// omega^2, the largest eigenvalue of M^-1 K, comes from the Lanczos form of the power iteration, 16 products from a
-/// vector of noise. Its Ritz value is never above the eigenvalue; with the residual added it is a bound that is hardly
-/// ever missed (Zhou and Li, "Bounding the spectrum of large Hermitian matrices", 2011), and 2 % are added for the
-/// rest. Where the bound of `stiffness_bound` is lower, that is taken.
+///   damping_ratio (omega^2 - undamped_frequency^2)  <=  D  <=  damping_ratio omega^2,   D <= most_spring_damping
 ///
-/// The damping rate is bounded: C is at most max(c/k) K, and obeys the same bound by blocks as K does.
-Mode stiffest_mode(const Dynamics& dynamics, const Vectors& positions);
+/// since C = damping_ratio (K - K_u), K_u being what internal damping does not reach: the stiffness across stretched
+/// springs, and that of springs which are less damped than others.
+struct Spectrum
+{
+  double frequency = 0.0;            ///< rad/s
+  double undamped_frequency = 0.0;   ///< rad/s; a bound that holds
+  double damping_ratio = 0.0;        ///< the largest c/k of all springs, s
+  double most_spring_damping = 0.0;  ///< 1/s; a bound that holds
+  double least_air_damping = 0.0;    ///< C_dis/m, 1/s
+  double most_air_damping = 0.0;     ///< (C_dis + C_vi)/m, 1/s
+};
+
+/// The spectrum about `positions` (m). Springs under compression count without their destabilising part (see
+/// `add_stiffness_product`).
+///
+/// omega^2, the largest eigenvalue of M^-1 K, comes from the Lanczos form of the power iteration, started from a vector
+/// of noise. Its Ritz value is never above the eigenvalue; with the residual added it is a bound that is hardly ever
+/// missed (Zhou and Li, "Bounding the spectrum of large Hermitian matrices", 2011), and 1 % is added for the rest. Where
+/// the bound of `stiffness_bound` is lower, that is taken.
+Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions);
 
 /// A bound that holds for omega^2, 1/s2, at the price of two force evaluations: each spring's 6 x 6 matrix [A -A; -A A]
 /// is at most twice its diagonal blocks, so no eigenvalue of M^-1 K exceeds the largest of 2/m_i times that of node
 /// i's block, the sum of A over its springs. Exact inside a flat uniform sheet, up to 1.5 times too large on shipped
 /// scenes.
 double stiffness_bound(const Dynamics& dynamics, const Vectors& positions);
+
+/// The largest step that is stable for every mode that a network of this spectrum can have, s.
+double network_stability_limit(const MethodRow& method, const Spectrum& spectrum);
 
 }  // namespace cloth

@@ -39,6 +39,8 @@ struct SolverParams
   std::string method = "auto";
   double time_step = 0.0;   ///< s; 0: from the stability limit
   double tolerance = 1e-3;  ///< m
+  int iterations = 10;
+  double compliance = 1.0;
 };
 
 /// What only the ROS node uses.

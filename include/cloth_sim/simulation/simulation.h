@@ -27,7 +27,9 @@ struct SimulationSetup
   std::vector<Pin> pins;
   StrainLimitProperties strain_limit;
   const MethodRow* method = nullptr;
-  double time_step = 0.0;  ///< s; 0: 0.9 of the stability limit as it is, or 1/240 where there is none
+  MethodSettings method_settings;
+  double time_step = 0.0;  ///< s; 0: 0.9 of the stability limit as it is, or 1/240 where there is none; of an adaptive
+                           ///< method the largest step, 0: none
   ClothState start;
 };
 
@@ -37,6 +39,8 @@ class Simulation
 public:
   /// The part of the stability limit that is taken where no step is given.
   static constexpr double limit_share = 0.9;
+  /// The shortest step, s: a limit below it counts as none that can be kept.
+  static constexpr double shortest_step = 1e-9;
 
   /// What was done since the start.
   struct Counters
@@ -44,6 +48,8 @@ public:
     std::uint64_t steps = 0;
     std::uint64_t force_evaluations = 0;
     std::uint64_t linear_solves = 0;
+    std::uint64_t rejected_steps = 0;     ///< tried by an adaptive method and thrown away
+    std::uint64_t unconverged_steps = 0;  ///< whose equations the method did not solve to its bound
     std::uint64_t limit_sweeps = 0;  ///< passes of the strain limit over the springs
   };
 
@@ -51,8 +57,8 @@ public:
   explicit Simulation(SimulationSetup setup);
 
   /// Advances to `time` (s) in equal steps, as few as the time step allows; where no step is given and the stability
-  /// limit falls on the way, the rest of the way is divided anew. False: the simulation has diverged, and holds the
-  /// last good state.
+  /// limit falls on the way, the rest of the way is divided anew. An adaptive method divides the way itself. False: the
+  /// simulation has diverged, and holds the last good state.
   bool advance_to(double time);
 
   const ClothModel& model() const
@@ -91,7 +97,7 @@ public:
   std::string divergence_report() const;
 
   /// The step that is taken as the cloth is now, s: the given one, or that which follows from the stability limit as
-  /// it was worked out last.
+  /// it was worked out last; of an adaptive method the last that it took.
   double time_step() const;
   /// The largest stable step of the cloth as it is at this moment, s; infinite where there is none.
   double stability_limit() const;
@@ -110,7 +116,10 @@ public:
 private:
   static constexpr int steps_between_checks = 64;
 
+  double longest_step() const;
   void step(double h);
+  void take_equal_steps(double time, double longest);
+  void take_adaptive_steps(double time, double longest);
   void keep_or_restore();
   void changed_from_outside();
 

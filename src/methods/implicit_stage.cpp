@@ -1,0 +1,171 @@
+#include "implicit_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cloth
+{
+namespace
+{
+
+double dot(const Vectors& a, const Vectors& b)
+{
+  return a.cwiseProduct(b).sum();
+}
+
+/// The largest |u_i| / m_i.
+double largest_per_mass(const Vectors& u, const Eigen::VectorXd& masses)
+{
+  return std::sqrt((u.rowwise().squaredNorm().array() / masses.array().square()).maxCoeff());
+}
+
+/// The largest sum of the stiffnesses at a node over its mass, 1/s2.
+double largest_stiffness_per_mass(const ClothModel& model)
+{
+  Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(model.nodes());
+  for (const SpringBatch& batch : model.springs)
+  {
+    for_each_spring(batch, [&](int i, int j) {
+      sums[i] += batch.stiffness;
+      sums[j] += batch.stiffness;
+    });
+  }
+  return (sums / model.masses.array()).maxCoeff();
+}
+
+}  // namespace
+
+void ImplicitStage::solve(const Dynamics& dynamics, double time, double s, const Vectors& base_positions,
+                          const Vectors& base_velocities, Vectors& positions, Vectors& velocities, StepReport& report)
+{
+  const Equation equation{ dynamics, time, s, base_positions, base_velocities };
+  const Eigen::VectorXd& masses = dynamics.model().masses;
+  find_residual(equation, positions, velocities, report);
+  const double rounding = rounding_of(equation, positions, velocities);
+  const double accepted = std::max(rounding, accepted_residual(equation, velocities));
+  // One iteration at least: a guess within the bound must not put an end to slow motions.
+  bool is_solved = largest_per_mass(residual_, masses) <= rounding;
+  for (int i = 0; i < most_iterations && !is_solved; ++i)
+  {
+    const auto unlimited = Eigen::ArrayXd::Constant(masses.size(), std::numeric_limits<double>::infinity());
+    linearise(equation, positions, unlimited);
+    if (!find_direction(equation, report))
+    {
+      // What remains of M, a tenth of it, keeps the matrix definite.
+      linearise(equation, positions, 0.9 * masses.array());
+      find_direction(equation, report);
+    }
+    search_along(equation, positions, velocities, report);
+    is_solved = largest_per_mass(residual_, masses) <= accepted;
+  }
+  report.converged = report.converged && is_solved;
+}
+
+void ImplicitStage::find_residual(const Equation& equation, Vectors& positions, Vectors& velocities,
+                                  StepReport& report)
+{
+  const Dynamics& dynamics = equation.dynamics;
+  dynamics.pins().impose_velocities(equation.time, velocities);
+  positions = equation.base_positions + equation.s * velocities;
+  dynamics.pins().impose(equation.time, positions, velocities);
+  dynamics.forces(equation.time, positions, velocities, forces_);
+  residual_ = (velocities - equation.base_velocities).array().colwise() * dynamics.model().masses.array();
+  residual_ -= equation.s * forces_;
+  dynamics.pins().clear_held(residual_);
+  ++report.force_evaluations;
+}
+
+double ImplicitStage::accepted_residual(const Equation& equation, const Vectors& velocities) const
+{
+  const double largest_velocity = std::sqrt(velocities.rowwise().squaredNorm().maxCoeff());
+  return residual_bound * (largest_velocity + largest_per_mass(residual_, equation.dynamics.model().masses));
+}
+
+/// What rounding of the springs' forces and of the velocities may leave of the residual, per mass.
+double ImplicitStage::rounding_of(const Equation& equation, const Vectors& positions, const Vectors& velocities) const
+{
+  const double farthest = std::sqrt(positions.rowwise().squaredNorm().maxCoeff());
+  const double fastest = std::sqrt(velocities.rowwise().squaredNorm().maxCoeff());
+  return 4.0 * std::numeric_limits<double>::epsilon() *
+         (fastest + equation.s * largest_stiffness_per_mass(equation.dynamics.model()) * farthest);
+}
+
+void ImplicitStage::linearise(const Equation& equation, const Vectors& positions, const Eigen::ArrayXd& capacities)
+{
+  const ClothModel& model = equation.dynamics.model();
+  springs_.linearise(model, positions, equation.s * equation.s, equation.s, capacities);
+  if (equation.dynamics.air().is_coupled(model))
+  {
+    node_normals(model, positions, normals_);
+  }
+}
+
+void ImplicitStage::multiply(const Equation& equation, const Vectors& u, Vectors& product)
+{
+  const Dynamics& dynamics = equation.dynamics;
+  product.setZero(u.rows(), 3);
+  dynamics.air().add_damping_product(dynamics.model(), normals_, u, product);
+  product *= equation.s;
+  product.array() += u.array().colwise() * dynamics.model().masses.array();
+  springs_.add_product(u, product);
+  dynamics.pins().clear_held(product);
+}
+
+/// Conjugate gradients, to a part of the residual that costs Newton's method hardly an iteration.
+bool ImplicitStage::find_direction(const Equation& equation, StepReport& report)
+{
+  constexpr double part = 1e-3;
+  constexpr int most_iterations = 1000;
+  const auto masses = equation.dynamics.model().masses.array();
+  direction_.setZero(residual_.rows(), 3);
+  remainder_ = -residual_;
+  preconditioned_ = remainder_.array().colwise() / masses;
+  search_ = preconditioned_;
+  double squared = dot(remainder_, preconditioned_);
+  const double enough = part * part * squared;
+  ++report.linear_solves;
+  for (int i = 0; i < most_iterations && squared > enough; ++i)
+  {
+    multiply(equation, search_, product_);
+    const double curvature = dot(search_, product_);
+    if (!(curvature > 0.0))
+    {
+      return false;
+    }
+    const double length = squared / curvature;
+    direction_ += length * search_;
+    remainder_ -= length * product_;
+    preconditioned_ = remainder_.array().colwise() / masses;
+    const double next = dot(remainder_, preconditioned_);
+    search_ = preconditioned_ + (next / squared) * search_;
+    squared = next;
+  }
+  return true;
+}
+
+/// Goes along the direction until the residual's component along it has fallen enough; it is a descent direction of the
+/// residual's component as the matrix is positive definite.
+void ImplicitStage::search_along(const Equation& equation, Vectors& positions, Vectors& velocities, StepReport& report)
+{
+  constexpr double enough = 0.8;
+  constexpr int most_trials = 10;
+  start_ = velocities;
+  const double at_start = dot(direction_, residual_);
+  double length = 1.0;
+  for (int trial = 0; trial < most_trials; ++trial)
+  {
+    velocities = start_ + length * direction_;
+    find_residual(equation, positions, velocities, report);
+    const double here = dot(direction_, residual_);
+    const bool has_overshot = !(here * at_start >= 0.0);
+    if (!has_overshot || std::abs(here) <= enough * std::abs(at_start))
+    {
+      return;
+    }
+    // Where the component would be zero if it were linear in between.
+    length *= std::isfinite(here) ? std::clamp(at_start / (at_start - here), 0.1, 0.9) : 0.1;
+  }
+}
+
+}  // namespace cloth

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "cloth_sim/methods/method.h"
+
+namespace cloth
+{
+
+/// The coefficients of an explicit Runge-Kutta method (Butcher's tableau).
+struct Tableau
+{
+  std::vector<double> times;                ///< c_i
+  std::vector<std::vector<double>> stages;  ///< a_ij, j < i
+  std::vector<double> weights;              ///< b_i
+};
+
+/// The stages of an explicit Runge-Kutta method for (x, v)' = (v, a(t, x, v)). Pins are imposed on every stage.
+class RungeKuttaStages
+{
+public:
+  explicit RungeKuttaStages(Tableau tableau);
+
+  /// Works out all stages of a step of length h from `state`. True for `first_is_known`: the slopes of the first
+  /// stage are already in place.
+  void work_out(const Dynamics& dynamics, double h, const ClothState& state, bool first_is_known = false);
+
+  /// x + h sum_i w_i v_i and v + h sum_i w_i a_i, at time t + h.
+  ClothState advanced(const Dynamics& dynamics, double h, const ClothState& state) const;
+
+  /// h sum_i w_i v_i and h sum_i w_i a_i for other weights than those of the tableau.
+  void add_weighted(double h, const std::vector<double>& weights, Vectors& positions, Vectors& velocities) const;
+
+  /// Takes the slopes of the last stage for those of the first: of a tableau whose last stage is the step's end.
+  void keep_last_as_first();
+
+  int count() const
+  {
+    return static_cast<int>(tableau_.times.size());
+  }
+
+private:
+  struct Slope
+  {
+    Vectors velocity;
+    Vectors acceleration;
+  };
+
+  Tableau tableau_;
+  std::vector<Slope> slopes_;
+  ClothState stage_;
+};
+
+/// The Runge-Kutta method of a tableau, at the step that it is given.
+class RungeKutta : public Method
+{
+public:
+  explicit RungeKutta(const Tableau& tableau);
+  StepReport step(const Dynamics& dynamics, double h, ClothState& state) override;
+
+private:
+  RungeKuttaStages stages_;
+};
+
+/// The largest stable step of a tableau's method for a mode, s. With mu an eigenvalue of the mode, a step multiplies
+/// its amplitude by |R(h mu)|, R(z) = 1 + sum_k z^k b A^(k-1) 1; the limit is where that first exceeds 1. 0: at once.
+double stability_limit(const Tableau& tableau, const Mode& mode);
+
+}  // namespace cloth
