@@ -41,6 +41,9 @@ void ImplicitStage::solve(const Dynamics& dynamics, double time, double s, const
 {
   const Equation equation{ dynamics, time, s, base_positions, base_velocities };
   const Eigen::VectorXd& masses = dynamics.model().masses;
+  dynamics.external_forces(time, velocities);
+  dynamics.accelerations_of(velocities, velocities);
+  velocities = base_velocities + s * velocities;
   find_residual(equation, positions, velocities, report);
   const double rounding = rounding_of(equation, positions, velocities);
   const double accepted = std::max(rounding, accepted_residual(equation, velocities));

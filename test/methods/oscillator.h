@@ -14,9 +14,15 @@ class Oscillator
 public:
   /// Damping ratios by the air and by the spring: D = 2 zeta omega = D_air + D_spring, 1/s.
   Oscillator(const char* method, double frequency, double air_ratio, double spring_ratio)
+    : Oscillator(method, frequency, air_ratio, spring_ratio, one_step_a_call(*find_method(method)))
+  {
+  }
+
+  Oscillator(const char* method, double frequency, double air_ratio, double spring_ratio,
+             const MethodSettings& settings)
     : dynamics_(make_sheet(sheet(frequency, spring_ratio)), Eigen::Vector3d::Zero(),
                 { air_viscosity(frequency, air_ratio), 0.0, Eigen::Vector3d::Zero() })
-    , method_(make(*find_method(method)))
+    , method_(find_method(method)->make(settings))
   {
     const Vectors& rest = dynamics_.model().rest_positions;
     dynamics_.pins().hold(still_pin("top", { 0 }, rest));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cloth_sim/methods/spectrum.h"
 #include "cloth_sim/simulation/energy.h"
 #include "support.h"
 
@@ -19,6 +20,8 @@ protected:
   SimulationSetup shaken_sheet() const
   {
     SimulationSetup setup = springs_alone(small_sheet(), GetParam().name, 0.0);
+    setup.method_settings = one_step_a_call(GetParam());
+    setup.time_step = step_for(setup);
     Noise noise;
     setup.start.positions += 0.003 * noise.vectors(setup.model.nodes());
     setup.start.velocities = 0.3 * noise.vectors(setup.model.nodes());
@@ -27,12 +30,28 @@ protected:
     return setup;
   }
 
+  /// Nine tenths of the stability limit where there is one, whatever follows the sheet's swings elsewhere, and where no
+  /// step is stable one at which the energy grows by a twentieth in 1e5 steps.
+  static double step_for(const SimulationSetup& setup)
+  {
+    const Simulation simulation(setup);
+    const double limit = simulation.stability_limit();
+    if (limit > 0.0)
+    {
+      return 0.9 * std::min(limit, 2e-3);
+    }
+    const auto [factor, power] = GetParam().energy_drift;
+    const double stiffest = spectrum_of(simulation.dynamics(), setup.start.positions).frequency;
+    return std::pow(0.05 / (1e5 * factor), 1.0 / power) / stiffest;
+  }
+
   static void undamp(SimulationSetup& setup)
   {
     for (SpringBatch& batch : setup.model.springs)
     {
       batch.damping = 0.0;
     }
+    setup.time_step = step_for(setup);
   }
 };
 
@@ -46,10 +65,11 @@ double scale_of(const ClothModel& model, const ClothState& state)
 
 TEST_P(Conservation, MomentumOfAFreeSheetStaysOverAHundredThousandSteps)
 {
-  Simulation simulation(shaken_sheet());
+  const SimulationSetup setup = shaken_sheet();
+  Simulation simulation(setup);
   const Eigen::Vector3d before = momentum_of(simulation.model(), simulation.state());
   const double scale = scale_of(simulation.model(), simulation.state());
-  simulation.advance_to(1e5 * simulation.time_step());
+  simulation.advance_to(1e5 * setup.time_step);
   EXPECT_GE(simulation.counters().steps, 99000u);
   EXPECT_LT((momentum_of(simulation.model(), simulation.state()) - before).norm(), 1e-12 * scale);
 }
@@ -61,7 +81,7 @@ TEST_P(Conservation, MomentumOfAFreeSheetStaysWithTheStrainLimitActing)
   Simulation simulation(setup);
   const Eigen::Vector3d before = momentum_of(simulation.model(), simulation.state());
   const double scale = scale_of(simulation.model(), simulation.state());
-  simulation.advance_to(2.0);
+  simulation.advance_to(1000.0 * setup.time_step);
   EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps);
   EXPECT_LT((momentum_of(simulation.model(), simulation.state()) - before).norm(), 1e-12 * scale);
 }
@@ -72,11 +92,12 @@ TEST_P(Conservation, AngularMomentumOfAFreeUndampedSheetStaysWhereTheTableSaysSo
   undamp(setup);
   Simulation simulation(setup);
   const Eigen::Vector3d before = angular_momentum_of(simulation.model(), simulation.state());
-  simulation.advance_to(5.0);
+  simulation.advance_to(std::min(5.0, 2e5 * setup.time_step));
   const double drift = (angular_momentum_of(simulation.model(), simulation.state()) - before).norm() / before.norm();
   if (GetParam().conserves_angular_momentum)
   {
-    EXPECT_LT(drift, 1e-11);
+    // A method that solves its equations conserves it as exactly as it solves them.
+    EXPECT_LT(drift, GetParam().linear_solves > 0 ? 1e-9 : 1e-11);
   }
   else
   {
@@ -100,32 +121,39 @@ TEST_P(Conservation, CentreOfMassFallsFreely)
   EXPECT_LT((now - exact).norm(), tolerance);
 }
 
-TEST_P(Conservation, EnergyOfAnUndampedSheetDoesNotGrowOverManyPeriods)
+TEST_P(Conservation, EnergyOfAnUndampedSheetIsKeptLostOrGainedAsTheTableSays)
 {
   SimulationSetup setup = shaken_sheet();
   undamp(setup);
-  setup.time_step = 0.25 * Simulation(setup).stability_limit();
+  setup.time_step *= 0.25;
   Simulation simulation(setup);
   const double before = energies_of(simulation.dynamics(), simulation.state()).total();
+  const double end = std::min(10.0, 2e5 * setup.time_step);
   double highest = 0.0;
   double lowest = 1.0;
+  double last = 1.0;
   for (int k = 1; k <= 200; ++k)
   {
-    simulation.advance_to(0.05 * k);
-    const double part = energies_of(simulation.dynamics(), simulation.state()).total() / before;
-    highest = std::max(highest, part);
-    lowest = std::min(lowest, part);
+    simulation.advance_to(end * k / 200);
+    last = energies_of(simulation.dynamics(), simulation.state()).total() / before;
+    highest = std::max(highest, last);
+    lowest = std::min(lowest, last);
   }
-  const double bound = GetParam().order == 1 ? 0.15 : 0.03;
-  EXPECT_LT(highest, 1.0 + bound);
-  // The symplectic methods keep the energy, rk4 loses that of the stiffest modes.
-  if (GetParam().conserves_angular_momentum)
+  const double factor = GetParam().energy_drift.factor;
+  if (factor > 0.0)
   {
-    EXPECT_GT(lowest, 1.0 - bound);
+    EXPECT_GT(last, 1.0 + 1e-6);
+  }
+  else if (factor < 0.0)
+  {
+    EXPECT_LT(last, 1.0 - 1e-4);
+    EXPECT_LT(highest, 1.03);
   }
   else
   {
-    EXPECT_LT(lowest, 1.0 - bound);
+    const double bound = GetParam().order == 1 ? 0.15 : 0.03;
+    EXPECT_LT(highest, 1.0 + bound);
+    EXPECT_GT(lowest, 1.0 - bound);
   }
 }
 
@@ -133,14 +161,14 @@ TEST_P(Conservation, DampingTakesEnergyOutAndNeverPutsItIn)
 {
   SimulationSetup setup = shaken_sheet();
   setup.air = { 0.3, 1.0, Eigen::Vector3d::Zero() };
+  setup.time_step = 0.1 * step_for(setup);
   Simulation simulation(setup);
-  setup.time_step = 0.1 * simulation.stability_limit();
-  Simulation fine(setup);
-  double before = energies_of(fine.dynamics(), fine.state()).total();
+  const double end = std::min(2.0, 2e5 * setup.time_step);
+  double before = energies_of(simulation.dynamics(), simulation.state()).total();
   for (int k = 1; k <= 40; ++k)
   {
-    fine.advance_to(0.05 * k);
-    const double now = energies_of(fine.dynamics(), fine.state()).total();
+    simulation.advance_to(end * k / 40);
+    const double now = energies_of(simulation.dynamics(), simulation.state()).total();
     EXPECT_LT(now, before);
     before = now;
   }
