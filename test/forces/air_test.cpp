@@ -77,6 +77,7 @@ TEST_F(AirOnASheet, DampingRateIsTheFastestOfAnyNode)
   const double slowing = (0.4 + 1.7) * (model_.areas.array() / model_.masses.array()).maxCoeff();
   EXPECT_DOUBLE_EQ(Air(properties_).damping_rate(model_), slowing);
   EXPECT_EQ(Air(vacuum()).damping_rate(model_), 0.0);
+  EXPECT_DOUBLE_EQ(Air(properties_).least_damping_rate(model_), 0.4 * model_.areas[0] / model_.masses[0]);
 }
 
 TEST(AirOnAChain, IsDragAlone)
@@ -87,6 +88,17 @@ TEST(AirOnAChain, IsDragAlone)
   air.add_forces(model, model.rest_positions, Vectors::Zero(model.nodes(), 3), forces);
   EXPECT_TRUE(forces.isZero(0.0));
   EXPECT_DOUBLE_EQ(air.damping_rate(model), 0.4 * model.areas[0] / model.masses[0]);
+}
+
+TEST_F(AirOnASheet, DampingProductIsTheDerivativeByTheVelocities)
+{
+  const Air air(properties_);
+  Noise noise;
+  const Vectors u = noise.vectors(model_.nodes());
+  Vectors product = Vectors::Zero(model_.nodes(), 3);
+  air.add_damping_product(model_, normals_, u, product);
+  const Vectors change = forces_of(air, velocities_ + u) - forces_of(air, velocities_);
+  EXPECT_LT((product + change).norm(), 1e-12 * product.norm());
 }
 
 }  // namespace

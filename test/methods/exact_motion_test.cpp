@@ -180,6 +180,61 @@ TEST_P(EveryMethod, SwingsATransverseModeUnderTensionAtItsFrequency)
               3.0 * std::pow(mode.frequency * time / steps, GetParam().order) + 1e-9);
 }
 
+TEST_P(EveryMethod, SwingsAMembraneAtItsFrequency)
+{
+  // Square cells, stretched evenly and clamped all round: with X = p pi/N, Y = q pi/N across it is
+  // m omega^2 = 4 T/a (sin^2 X/2 + sin^2 Y/2) + 4 T_d/d (1 - cos X cos Y), T and T_d the tensions of the structural and
+  // shear springs, a and d their lengths.
+  const int cells = 6;
+  const int p = 2;
+  const int q = 1;
+  SheetProperties sheet = small_sheet(cells + 1, cells + 1);
+  sheet.width = sheet.height = 0.6;
+  sheet.structural = { 80.0, 0.0 };
+  sheet.shear = { 50.0, 0.0 };
+  sheet.flex = { 0.0, 0.0 };
+  sheet.mass_lumping = MassLumping::uniform;
+  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), vacuum());
+  const ClothModel& model = dynamics.model();
+  const double stretch = 1.3;
+  const Vectors stretched = stretch * model.rest_positions;
+  const double spacing = stretch * 0.6 / cells;
+  const double pull = (1.0 - 1.0 / stretch);  // T/(k a), and T_d/(k_d d) too
+  const double x = p * M_PI / cells;
+  const double y = q * M_PI / cells;
+  const double stiffness =
+      4.0 * 80.0 * pull * (std::pow(std::sin(0.5 * x), 2) + std::pow(std::sin(0.5 * y), 2)) +
+      4.0 * 50.0 * pull * (1.0 - std::cos(x) * std::cos(y));
+  const double frequency = std::sqrt(stiffness / model.masses[0]);
+
+  ClothState state{ stretched, Vectors::Zero(model.nodes(), 3), 0.0 };
+  std::vector<int> border;
+  Eigen::VectorXd shape(model.nodes());
+  for (int i = 0; i < model.nodes(); ++i)
+  {
+    const int row = model.row_of(i);
+    const int col = model.col_of(i);
+    shape[i] = std::sin(p * M_PI * col / cells) * std::sin(q * M_PI * row / cells);
+    if (row % cells == 0 || col % cells == 0)
+    {
+      border.push_back(i);
+    }
+  }
+  dynamics.pins().hold(still_pin("border", border, stretched));
+  const double amplitude = 1e-6 * spacing;
+  state.positions.col(1) += amplitude * shape;
+  const double time = 1.1 * 2.0 * M_PI / frequency;
+  const int steps = steps_like(2000);
+  const std::unique_ptr<Method> method = make(GetParam());
+  for (int s = 0; s < steps; ++s)
+  {
+    method->step(dynamics, time / steps, state);
+  }
+  const double measured = shape.dot(state.positions.col(1)) / shape.squaredNorm() / amplitude;
+  EXPECT_NEAR(measured, std::cos(frequency * time),
+              5.0 * std::pow(frequency * time / steps, GetParam().order) + 1e-8);
+}
+
 TEST_P(EveryMethod, KeepsTheRotatingPairAtItsLength)
 {
   // l = k l0/(k - m Omega^2/2)
@@ -267,6 +322,24 @@ TEST_P(EveryMethod, IsBlownAlongItsNormalUntilItMovesWithTheAir)
   const double exact = 3.0 * (1.0 - std::exp(-rate * end));
   EXPECT_LT((state.velocities.col(1).array() - exact).abs().maxCoeff(),
             3.0 * std::pow(rate * end / steps, GetParam().order) + 1e-12);
+}
+
+TEST(ImplicitMidpoint, SwingsTheOscillatorAtItsOwnExactFrequency)
+{
+  // tan(Omega h/2) = omega h/2
+  const double frequency = 7.0;
+  for (const double z : { 0.01, 0.5, 1.9, 20.0 })
+  {
+    const double h = z / frequency;
+    const double numerical = 2.0 / h * std::atan(0.5 * z);
+    Oscillator oscillator("implicit_midpoint", frequency, 0.0, 0.0);
+    oscillator.put(0.01, 0.0);
+    for (int s = 1; s <= 1000; ++s)
+    {
+      oscillator.step(h);
+      EXPECT_NEAR(oscillator.displacement(), 0.01 * std::cos(numerical * s * h), 1e-12 * s) << "z = " << z;
+    }
+  }
 }
 
 TEST(VelocityVerlet, SwingsTheOscillatorAtItsOwnExactFrequency)
