@@ -19,6 +19,7 @@ cloth_add_test(model
 cloth_add_test(forces
   test/forces/air_test.cpp
   test/forces/gravity_test.cpp
+  test/forces/spring_jacobian_test.cpp
   test/forces/springs_test.cpp
 )
 cloth_add_test(constraints
@@ -26,6 +27,7 @@ cloth_add_test(constraints
   test/constraints/strain_limit_test.cpp
 )
 cloth_add_test(methods
+  test/methods/energy_drift_test.cpp
   test/methods/exact_motion_test.cpp
   test/methods/order_test.cpp
   test/methods/spectrum_test.cpp
@@ -34,6 +36,7 @@ cloth_add_test(methods
 cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp
+  test/simulation/failure_test.cpp
   test/simulation/simulation_test.cpp
   test/simulation/statics_test.cpp
 )

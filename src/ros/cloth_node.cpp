@@ -203,6 +203,11 @@ void ClothNode::publish_stats_when_due()
   message.overruns = clock_.overruns();
   message.plan = joined(describe(plan_, simulation_), "\n");
   stats_.publish(message);
+  const std::string unsolved = convergence_warning(simulation_);
+  if (!unsolved.empty())
+  {
+    ROS_WARN_THROTTLE(60.0, "%s", unsolved.c_str());
+  }
 }
 
 void ClothNode::wait_for_tick() const

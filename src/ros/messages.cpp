@@ -81,6 +81,9 @@ cloth_sim::ClothStats stats_message(const Simulation& simulation, const TickRepo
   message.gravitational_energy = energies.gravitational;
   message.max_strain = max_strain(simulation.model(), simulation.state().positions);
   message.time_step = simulation.time_step();
+  message.stability_limit = simulation.stability_limit();
+  message.rejected_steps = simulation.counters().rejected_steps;
+  message.unconverged_steps = simulation.counters().unconverged_steps;
   message.method = simulation.method().name;
   return message;
 }

@@ -196,7 +196,8 @@ namespace
 std::string described_step(double given, const Simulation& simulation)
 {
   const std::string name = simulation.method().name;
-  const std::string limit = format_number(simulation.stability_limit()) + " s";
+  const double stability_limit = simulation.stability_limit();
+  const std::string limit = format_number(stability_limit) + " s";
   if (simulation.method().is_adaptive)
   {
     return "chosen by " + name + (given > 0.0 ? ", at most " + format_number(given) + " s" : "") +
@@ -207,7 +208,7 @@ std::string described_step(double given, const Simulation& simulation)
   {
     return step + "as the scene says; the stability limit of " + name + " is " + limit;
   }
-  if (std::isfinite(simulation.stability_limit()))
+  if (std::isfinite(stability_limit))
   {
     return step + format_number(Simulation::limit_share) + " of the stability limit of " + name + ", " + limit +
            ", and with it as the sheet deforms";
@@ -230,12 +231,25 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
 
 std::string time_step_warning(const Simulation& simulation)
 {
-  if (simulation.method().is_adaptive || simulation.time_step() <= simulation.stability_limit())
+  const double limit = simulation.stability_limit();
+  if (simulation.method().is_adaptive || simulation.time_step() <= limit)
   {
     return {};
   }
   return "solver.time_step is " + format_number(simulation.time_step()) + " s, beyond the stability limit of " +
-         simulation.method().name + ", " + format_number(simulation.stability_limit()) + " s";
+         simulation.method().name + ", " + format_number(limit) + " s";
+}
+
+std::string convergence_warning(const Simulation& simulation)
+{
+  const Simulation::Counters& counters = simulation.counters();
+  if (counters.unconverged_steps == 0)
+  {
+    return {};
+  }
+  return std::to_string(counters.unconverged_steps) + " of " + std::to_string(counters.steps) + " steps of " +
+         simulation.method().name + " were not solved to its bound; a shorter solver.time_step helps" +
+         (std::string(simulation.method().name) == "projective" ? ", and so do more solver.iterations" : "");
 }
 
 }  // namespace cloth

@@ -173,11 +173,20 @@ std::string Simulation::divergence_report() const
   {
     return {};
   }
+  const double limit = stability_limit();
   std::ostringstream text;
   text << "diverged at " << divergence_->time << " s, first seen at node [" << model().row_of(divergence_->node) << ", "
        << model().col_of(divergence_->node) << "]: " << divergence_->cause << "; the step was " << last_step_
-       << " s, the stability limit of " << method_row_->name << " is " << stability_limit()
-       << " s for the last good state; take a smaller solver.time_step (0: chosen from the limit) or softer springs";
+       << " s, the stability limit of " << method_row_->name;
+  if (std::isfinite(limit))
+  {
+    text << " is " << limit << " s for the last good state; take a smaller solver.time_step (0: chosen from the limit)";
+  }
+  else
+  {
+    text << " is none, of the linear problem; take a smaller solver.time_step";
+  }
+  text << " or softer springs";
   return text.str();
 }
 

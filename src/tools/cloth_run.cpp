@@ -143,6 +143,11 @@ int run(const cloth::RunOptions& options)
     progress.show(sampled, sampled / stopwatch.seconds());
   }
   progress.end();
+  const std::string unsolved = cloth::convergence_warning(simulation);
+  if (!unsolved.empty())
+  {
+    std::cerr << "cloth_run: warning: " << unsolved << "\n";
+  }
 
   if (output)
   {

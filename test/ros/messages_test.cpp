@@ -87,6 +87,9 @@ TEST(StatsMessage, GivesTheEnergiesOfTheStart)
   EXPECT_EQ(message.tick_ms_mean, 2.0);
   EXPECT_EQ(message.tick_ms_max, 3.0);
   EXPECT_EQ(message.time_step, simulation.time_step());
+  EXPECT_EQ(message.stability_limit, simulation.stability_limit());
+  EXPECT_EQ(message.unconverged_steps, simulation.counters().unconverged_steps);
+  EXPECT_EQ(message.rejected_steps, 0u);
 }
 
 }  // namespace

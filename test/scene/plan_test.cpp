@@ -126,6 +126,18 @@ TEST(Plan, SaysWhichStepIsTakenAndWhy)
   EXPECT_TRUE(has(line_of("time step", free), { "time step: 0.00416666", " s, 1/240 s, since nothing here limits" }));
 }
 
+TEST(ConvergenceWarning, CountsTheStepsThatWereNotSolved)
+{
+  const std::string stiff = std::string("{") + four_by_five +
+                            ", springs: {structural: {stiffness: 1.0e5}}, solver: {method: projective, iterations: 2}}";
+  Simulation simulation = build_simulation(make_plan(scene_of(stiff)));
+  EXPECT_EQ(convergence_warning(simulation), "");
+  simulation.advance_to(0.1);
+  const std::string unsolved = std::to_string(simulation.counters().unconverged_steps);
+  EXPECT_TRUE(has(convergence_warning(simulation),
+                  { unsolved + " of 24 steps of projective", "solver.time_step", "solver.iterations" }));
+}
+
 TEST(TimeStepWarning, HasBothNumbersBeyondTheLimitAndNothingWithinIt)
 {
   const std::string scene = std::string("{") + four_by_five + ", solver: {time_step: ";

@@ -40,4 +40,8 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
 /// One sentence with both numbers where the given step is beyond the stability limit; empty otherwise.
 std::string time_step_warning(const Simulation& simulation);
 
+/// One sentence with the number of steps whose equations the method did not solve to its bound; empty where there are
+/// none.
+std::string convergence_warning(const Simulation& simulation);
+
 }  // namespace cloth
