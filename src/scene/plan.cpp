@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cloth_sim/scene/pin_selection.h"
-#include "cloth_sim/scene/start_state.h"
+#include "cloth_sim/scene/scene_start.h"
 #include "cloth_sim/scene/yaml_text.h"
 
 namespace cloth
@@ -122,6 +122,8 @@ Plan make_plan(const SceneParams& scene)
   plan.scene = scene;
   plan.method = find_method(scene.solver.method == "auto" ? automatic_method : scene.solver.method);
   const ClothModel model = make_sheet(scene.sheet);
+  const SceneStart start = scene_start(scene, model);
+  plan.start = start.state;
   plan.lines = {
     spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),
     spring_line(scene.sheet, SpringKind::shear, scene.sheet.shear),
@@ -131,6 +133,7 @@ Plan make_plan(const SceneParams& scene)
     wind_line(scene),
     strain_limit_line(scene),
     pin_line(pins_of(scene.pins, model, model.rest_positions)),
+    { "start", true, start.description },
     method_line(scene),
   };
   if (!strain_limit_line(scene).kept)
@@ -150,7 +153,7 @@ Simulation build_simulation(const Plan& plan)
   setup.strain_limit = scene.strain_limit;
   setup.method = plan.method;
   setup.time_step = scene.solver.time_step;
-  setup.start = start_state(scene.start, setup.model);
+  setup.start = plan.start;
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
   return Simulation(std::move(setup));
 }
