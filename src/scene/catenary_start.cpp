@@ -1,10 +1,12 @@
 #include "cloth_sim/scene/catenary_start.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 
 #include "cloth_sim/scene/catenary.h"
+#include "cloth_sim/scene/start_state.h"
 
 namespace cloth
 {
@@ -19,15 +21,22 @@ double rest_distance(const ClothModel& model, int i, int j)
   return (model.rest_positions.row(i) - model.rest_positions.row(j)).norm();
 }
 
+StartParams without_ripple(StartParams start)
+{
+  start.ripple = 0.0;
+  return start;
+}
+
 /// Nodes on their way to their places. Those of one stage see the places of the stages before.
 class Hanging
 {
 public:
-  Hanging(const ClothModel& model, const std::vector<int>& pinned, const Vectors& positions,
+  Hanging(const StartParams& start, const ClothModel& model, const std::vector<int>& pinned,
           const Eigen::Vector3d& down)
     : model_(model)
     , down_(down)
-    , positions_(positions)
+    , smooth_(start_state(without_ripple(start), model).positions)
+    , positions_(start_state(start, model).positions)
     , placed_(static_cast<size_t>(model.nodes()), 0)
     , claims_(Vectors::Zero(model.nodes(), 3))
     , claimed_(placed_)
@@ -119,8 +128,8 @@ private:
     }
   }
 
-  /// The nodes that are nearest to the straight line between two nodes of the grid, each at its foot on the line: so
-  /// no two of them get farther apart than at rest.
+  /// The nodes that are nearest to the straight line between two nodes of the grid, each as far beside the curve as
+  /// it is beside the line.
   void hang_along_line(int i, int j)
   {
     const int down = model_.row_of(j) - model_.row_of(i);
@@ -134,7 +143,10 @@ private:
       const int node = model_.node(model_.row_of(i) + static_cast<int>(std::lround(part * down)),
                                    model_.col_of(i) + static_cast<int>(std::lround(part * across)));
       const double foot = (model_.rest_positions.row(node) - model_.rest_positions.row(i)).dot(line) / line.norm();
-      claim(node, curve.at(foot));
+      const double part_of_foot = foot / line.norm();
+      const Eigen::RowVector3d beside =
+          smooth_.row(node) - (1.0 - part_of_foot) * smooth_.row(i) - part_of_foot * smooth_.row(j);
+      claim(node, curve.at(foot) + beside.transpose());
     }
   }
 
@@ -201,6 +213,7 @@ private:
 
   const ClothModel& model_;
   const Eigen::Vector3d down_;
+  const Vectors smooth_;  ///< the flat sheet without ripple, m
   Vectors positions_;
   std::vector<char> placed_;
   Vectors claims_;
@@ -225,14 +238,19 @@ bool has_slack(const ClothModel& model, const std::vector<int>& nodes, const Vec
   return false;
 }
 
-Vectors hung_in_catenaries(const ClothModel& model, const std::vector<int>& pinned, const Vectors& positions,
+Vectors hung_in_catenaries(const StartParams& start, const ClothModel& model, const std::vector<int>& pinned,
                            const Eigen::Vector3d& down)
 {
-  Hanging hanging(model, pinned, positions, down);
+  Hanging hanging(start, model, pinned, down);
   hanging.hang_between(pinned);
   hanging.hang_along_rows_and_columns();
   hanging.hang_the_rest();
-  return hanging.positions();
+  Vectors ripple = ripple_of(start, model) * rotation_of(start.rpy).col(1).transpose();
+  for (const int node : pinned)
+  {
+    ripple.row(node).setZero();
+  }
+  return hanging.positions() + ripple;
 }
 
 }  // namespace cloth

@@ -122,11 +122,7 @@ void relax(const SceneParams& scene, const ClothModel& model, const FlatSheet& f
 
 Vectors catenary_positions(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat)
 {
-  Vectors positions = hung_in_catenaries(model, flat.pinned, flat.state.positions, scene.gravity.normalized());
-  const Eigen::RowVector3d normal = rotation_of(scene.start.rpy).col(1).transpose();
-  Vectors rippled = ripple_of(scene.start, model) * normal;
-  flat.pins.clear_held(rippled);
-  positions += rippled;
+  Vectors positions = hung_in_catenaries(scene.start, model, flat.pinned, scene.gravity.normalized());
   relax(scene, model, flat, positions);
   return positions;
 }
