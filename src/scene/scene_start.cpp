@@ -1,6 +1,8 @@
 #include "cloth_sim/scene/scene_start.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -11,7 +13,6 @@
 #include "cloth_sim/scene/pin_selection.h"
 #include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/start_state.h"
-#include "cloth_sim/scene/yaml_text.h"
 #include "cloth_sim/simulation/statics.h"
 
 namespace cloth
@@ -138,6 +139,24 @@ SceneStart catenary_start(const SceneParams& scene, const ClothModel& model, Fla
   return { flat.state, "catenary, between " + counted_nodes(flat.pinned.size()) };
 }
 
+/// Two digits.
+std::string in_short(double number)
+{
+  std::ostringstream text;
+  text << std::setprecision(2) << number;
+  return text.str();
+}
+
+std::string cure_of_unrest(const SceneParams& scene, const StaticsReport& report)
+{
+  if (scene.strain_limit.max_strain == 0.0)
+  {
+    return "take cloth.start: flat";
+  }
+  return "some spring is strained by " + in_short(report.excess) +
+         " more than strain_limit.max_strain; raise it, bring the pins nearer to each other, or take cloth.start: flat";
+}
+
 SceneStart settled_start(const SceneParams& scene, const ClothModel& model, FlatSheet flat)
 {
   if (!scene.gravity.isZero(0.0) && !is_held(model, flat))
@@ -153,18 +172,16 @@ SceneStart settled_start(const SceneParams& scene, const ClothModel& model, Flat
   }
   const StaticsReport report =
       settle(model, flat.pins, scene.gravity, scene.strain_limit.max_strain, rest_tolerance, flat.state.positions);
-  const std::string scale = scene.gravity.isZero(0.0) ? " of the largest k l0" : " of the weight";
-  const std::string residual = format_number(report.residual) + scale;
+  const std::string force = "the largest net force on a node is " + in_short(report.residual) +
+                            (scene.gravity.isZero(0.0) ? " of the largest k l0" : " of the weight");
   const std::string iterations = std::to_string(report.iterations) + " iterations";
   if (!report.converged)
   {
-    refuse(scene, "no rest was found in " + iterations + ": the largest net force on a node is " + residual +
-                      ", allowed is " + format_number(rest_tolerance) + ", and the strain limit is exceeded by " +
-                      format_number(report.excess) +
-                      "; take a larger strain_limit.max_strain, or cloth.start: catenary");
+    refuse(scene, "no rest was found in " + iterations + ": " + force + ", allowed is " + in_short(rest_tolerance) +
+                      "; " + cure_of_unrest(scene, report));
   }
-  return { flat.state, "settled, from " + std::string(hangs ? "catenary" : "flat") + " in " + iterations +
-                           ", the largest net force on a node " + residual };
+  return { flat.state,
+           "settled, from " + std::string(hangs ? "catenary" : "flat") + " in " + iterations + "; " + force };
 }
 
 }  // namespace

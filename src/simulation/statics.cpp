@@ -19,6 +19,10 @@ namespace
 {
 
 constexpr int most_iterations = 3000;
+constexpr int most_products = 200000;
+constexpr int most_multiplier_sets = 20;
+/// From this set on a limit is out of reach that a set brings hardly nearer.
+constexpr int first_telling_set = 6;
 /// The residual at which the multipliers of the limit are found for the first time; then a tenth of it each time.
 constexpr double first_accuracy = 1e-3;
 constexpr int most_products_a_node = 10;
@@ -122,6 +126,10 @@ public:
     return weight > 0.0 ? weight : strongest_;
   }
 
+  double max_strain() const
+  {
+    return max_strain_;
+  }
   const Vectors& positions() const
   {
     return positions_;
@@ -191,20 +199,25 @@ public:
     pins_.clear_held(product);
   }
 
-  /// Takes the limit's tensions for the multipliers, and makes the limit stiffer. False: they are new, by more than
-  /// the accuracy within which the limit is to be obeyed.
-  bool update_multipliers()
+  /// Whether the multipliers are the limit's tensions, within the accuracy that the limit is to be obeyed with.
+  bool knows_multipliers() const
   {
-    bool known = true;
-    for (Tie& tie : ties_)
-    {
+    return std::all_of(ties_.begin(), ties_.end(), [&](const Tie& tie) {
       const double tension = tension_of(tie, difference(positions_, tie.i, tie.j).norm());
       const double accuracy = limit_accuracy * StrainLimit::tolerance * max_strain_ * tie.rest_length;
-      known = known && std::abs(tension - tie.multiplier) <= penalty_ * accuracy;
-      tie.multiplier = tension;
+      return std::abs(tension - tie.multiplier) <= penalty_ * accuracy;
+    });
+  }
+
+  /// Takes the limit's tensions for the multipliers, and makes the limit stiffer.
+  void update_multipliers()
+  {
+    for (Tie& tie : ties_)
+    {
+      tie.multiplier = tension_of(tie, difference(positions_, tie.i, tie.j).norm());
     }
     penalty_ = std::min(penalty_growth * penalty_, most_penalty_);
-    return known;
+    move_to(Vectors(positions_));
   }
 
   /// The largest strain of a limited spring above max_strain.
@@ -514,16 +527,21 @@ public:
   void run()
   {
     bool is_lost = false;
-    while (!report_.converged && !is_lost && report_.iterations < most_iterations)
+    while (!report_.converged && !is_lost && report_.iterations < most_iterations &&
+           report_.hessian_products < most_products)
     {
       if (report_.residual > accuracy_)
       {
         is_lost = !descend();
       }
-      else if (!potential_.update_multipliers() || accuracy_ > tolerance_)
+      else if (!potential_.knows_multipliers())
       {
-        accuracy_ = std::max(0.1 * accuracy_, tolerance_);
-        move_to(positions());
+        is_lost = !pull_back();
+        ask_for_more();
+      }
+      else if (accuracy_ > tolerance_)
+      {
+        ask_for_more();
       }
       else
       {
@@ -546,8 +564,29 @@ private:
   void move_to(const Vectors& positions)
   {
     potential_.move_to(positions);
+    find_residual();
+  }
+
+  void find_residual()
+  {
     const double largest = longest_row(potential_.gradient());
     report_.residual = report_.force_scale > 0.0 ? largest / report_.force_scale : 0.0;
+  }
+
+  /// A new set of tensions for the limit. False: it is out of reach.
+  bool pull_back()
+  {
+    const double excess = potential_.excess();
+    const bool is_nearer = excess < 0.9 * last_excess_ || excess < StrainLimit::tolerance * potential_.max_strain();
+    last_excess_ = excess;
+    potential_.update_multipliers();
+    find_residual();
+    return ++multiplier_sets_ < most_multiplier_sets && (is_nearer || multiplier_sets_ < first_telling_set);
+  }
+
+  void ask_for_more()
+  {
+    accuracy_ = std::max(0.1 * accuracy_, tolerance_);
   }
 
   /// One step of Newton's method in its trust region, taken or refused. False: there is no end to the way down.
@@ -636,6 +675,8 @@ private:
   double size_ = 0.0;      ///< of the sheet, m
   double radius_ = 0.0;    ///< of the trust region; 0: as long as the step of steepest descent
   double accuracy_ = 0.0;  ///< the residual that is small enough for now
+  int multiplier_sets_ = 0;
+  double last_excess_ = 0.0;  ///< with the last set
   StaticsReport report_;
 };
 
