@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 #include "cloth_sim/constraints/pins.h"
@@ -100,13 +99,14 @@ bool is_held(const ClothModel& model, const FlatSheet& flat)
 }
 
 /// Relaxes a sheet some spring of which starts overstretched: springs and gravity roughly, then the strain limit.
-void relax(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat, Vectors& positions)
+/// False: none does.
+bool relax(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat, Vectors& positions)
 {
   const double limit = scene.strain_limit.max_strain;
   const double most = limit > 0.0 ? std::min(limit, most_start_strain) : most_start_strain;
   if (max_strain(model, positions) <= most || !is_held(model, flat))
   {
-    return;
+    return false;
   }
   Vectors relaxed = positions;
   if (settle(model, flat.pins, scene.gravity, 0.0, relaxed_tolerance, relaxed).converged)
@@ -119,24 +119,15 @@ void relax(const SceneParams& scene, const ClothModel& model, const FlatSheet& f
     StrainLimit(model, { limit, start_sweeps }).apply(model, flat.pins, 1.0, state);
     positions = state.positions;
   }
+  return true;
 }
 
-Vectors catenary_positions(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat)
+SceneStart catenary_start(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat)
 {
-  Vectors positions = hung_in_catenaries(scene.start, model, flat.pinned, scene.gravity.normalized());
-  relax(scene, model, flat, positions);
-  return positions;
-}
-
-std::string counted_nodes(size_t number)
-{
-  return std::to_string(number) + " pinned node" + (number == 1 ? "" : "s");
-}
-
-SceneStart catenary_start(const SceneParams& scene, const ClothModel& model, FlatSheet flat)
-{
-  flat.state.positions = catenary_positions(scene, model, flat);
-  return { flat.state, "catenary, between " + counted_nodes(flat.pinned.size()) };
+  SceneStart start{ flat.state, "catenary, between " + std::to_string(flat.pinned.size()) + " pinned nodes" };
+  start.state.positions = hung_in_catenaries(scene.start, model, flat.pinned, scene.gravity.normalized());
+  start.description += relax(scene, model, flat, start.state.positions) ? ", relaxed" : "";
+  return start;
 }
 
 /// Two digits.
@@ -157,21 +148,21 @@ std::string cure_of_unrest(const SceneParams& scene, const StaticsReport& report
          " more than strain_limit.max_strain; raise it, bring the pins nearer to each other, or take cloth.start: flat";
 }
 
-SceneStart settled_start(const SceneParams& scene, const ClothModel& model, FlatSheet flat)
+SceneStart settled_start(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat)
 {
+  if (!scene.gravity.isZero(0.0) && flat.pinned.empty())
+  {
+    refuse(scene, "the sheet has no pins and falls for ever; add pins, or take cloth.start: flat");
+  }
   if (!scene.gravity.isZero(0.0) && !is_held(model, flat))
   {
-    refuse(scene, std::string(flat.pinned.empty() ? "the sheet has no pins" : "no springs join some nodes to a pin") +
-                      " and falls for ever; add pins" + (flat.pinned.empty() ? "" : " or springs") +
-                      ", or take cloth.start: flat");
+    refuse(scene,
+           "no springs join some nodes to a pin, and they fall for ever; add springs, or take cloth.start: flat");
   }
   const bool hangs = obstacle_to_catenaries(scene, model, flat).empty();
-  if (hangs)
-  {
-    flat.state.positions = catenary_positions(scene, model, flat);
-  }
+  ClothState state = hangs ? catenary_start(scene, model, flat).state : flat.state;
   const StaticsReport report =
-      settle(model, flat.pins, scene.gravity, scene.strain_limit.max_strain, rest_tolerance, flat.state.positions);
+      settle(model, flat.pins, scene.gravity, scene.strain_limit.max_strain, rest_tolerance, state.positions);
   const std::string force = "the largest net force on a node is " + in_short(report.residual) +
                             (scene.gravity.isZero(0.0) ? " of the largest k l0" : " of the weight");
   const std::string iterations = std::to_string(report.iterations) + " iterations";
@@ -180,15 +171,14 @@ SceneStart settled_start(const SceneParams& scene, const ClothModel& model, Flat
     refuse(scene, "no rest was found in " + iterations + ": " + force + ", allowed is " + in_short(rest_tolerance) +
                       "; " + cure_of_unrest(scene, report));
   }
-  return { flat.state,
-           "settled, from " + std::string(hangs ? "catenary" : "flat") + " in " + iterations + "; " + force };
+  return { state, "settled, from " + std::string(hangs ? "catenary" : "flat") + " in " + iterations + "; " + force };
 }
 
 }  // namespace
 
 SceneStart scene_start(const SceneParams& scene, const ClothModel& model)
 {
-  FlatSheet flat(scene, model);
+  const FlatSheet flat(scene, model);
   if (scene.start.shape == "catenary")
   {
     const std::string obstacle = obstacle_to_catenaries(scene, model, flat);
@@ -196,11 +186,11 @@ SceneStart scene_start(const SceneParams& scene, const ClothModel& model)
     {
       refuse(scene, obstacle);
     }
-    return catenary_start(scene, model, std::move(flat));
+    return catenary_start(scene, model, flat);
   }
   if (scene.start.shape == "settled")
   {
-    return settled_start(scene, model, std::move(flat));
+    return settled_start(scene, model, flat);
   }
   return { flat.state, "flat" };
 }

@@ -95,7 +95,7 @@ TEST(Plan, SaysWhereTheSheetStartsAndHoldsIt)
 {
   EXPECT_EQ(line_of("start", four_by_five), "start: kept, flat");
   const std::string drawn = "cloth: {rows: 4, cols: 5, initial_stretch: [0.9, 1.0], start: ";
-  EXPECT_EQ(line_of("start", drawn + "catenary}"), "start: kept, catenary, between 2 pinned nodes");
+  EXPECT_EQ(line_of("start", drawn + "catenary}"), "start: kept, catenary, between 2 pinned nodes, relaxed");
   EXPECT_TRUE(
       has(line_of("start", drawn + "settled}"), { "start: kept, settled, from catenary in ", " of the weight" }));
   const Plan plan = make_plan(scene_of("{" + drawn + "settled}}"));

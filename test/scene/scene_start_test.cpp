@@ -281,7 +281,7 @@ TEST(SceneStart, IsRefusedWithTheReasonAndTheCure)
   EXPECT_TRUE(has(refusal_of("{cloth: {start: settled}, pins: []}"),
                   { "cloth.start is settled, but the sheet has no pins and falls for ever; add pins" }));
   EXPECT_TRUE(has(refusal_of("{cloth: {start: settled}, springs: {structural: {stiffness: 0}, shear: {stiffness: 0}}}"),
-                  { "no springs join some nodes to a pin and falls for ever" }));
+                  { "no springs join some nodes to a pin, and they fall for ever; add springs" }));
 }
 
 TEST(SceneStart, ThatDoesNotConvergeIsRefusedWithNumbers)
@@ -299,6 +299,8 @@ TEST(SceneStart, SaysHowItWasMade)
 {
   EXPECT_EQ(start_of(scene_of("{}")).description, "flat");
   EXPECT_EQ(start_of(scene_of("{cloth: {start: catenary, rows: 4, cols: 4, initial_stretch: [0.9, 1]}}")).description,
+            "catenary, between 2 pinned nodes, relaxed");
+  EXPECT_EQ(start_of(scene_of(chain_across("initial_stretch: [0.9, 1]"))).description,
             "catenary, between 2 pinned nodes");
   const std::string small = "{cloth: {start: settled, rows: 4, cols: 4, initial_stretch: [";
   EXPECT_TRUE(
