@@ -16,9 +16,10 @@ struct SceneStart
   std::string description;
 };
 
-/// The start of a scene whose sheet is `model`, in the shape that `cloth.start` names: `start_state` (flat),
-/// `hung_in_catenaries` with the ripple added (catenary), or the rest that `settle` finds from the catenaries, and
-/// where there are none from flat (settled). Throws SceneError where the scene has no such shape.
+/// The start of a scene whose sheet is `model`, in the shape that `cloth.start` names: `start_state` (flat);
+/// `hung_in_catenaries`, relaxed where that leaves springs overstretched (catenary); or the rest that `settle` finds
+/// from the catenaries, and where there are none from flat (settled). Pinned nodes are where the flat start has them,
+/// velocities are the scene's. Throws SceneError, key cloth.start, where the scene has no such shape.
 SceneStart scene_start(const SceneParams& scene, const ClothModel& model);
 
 }  // namespace cloth
