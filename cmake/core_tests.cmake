@@ -37,15 +37,18 @@ cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp
   test/simulation/failure_test.cpp
+  test/simulation/settle_test.cpp
   test/simulation/simulation_test.cpp
   test/simulation/statics_test.cpp
 )
 cloth_add_test(scene
+  test/scene/catenary_test.cpp
   test/scene/parameter_page_test.cpp
   test/scene/parameter_table_test.cpp
   test/scene/pin_selection_test.cpp
   test/scene/plan_test.cpp
   test/scene/scene_reader_test.cpp
+  test/scene/scene_start_test.cpp
   test/scene/shipped_scenes_test.cpp
   test/scene/start_state_test.cpp
   test/scene/yaml_text_test.cpp

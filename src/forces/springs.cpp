@@ -46,6 +46,33 @@ void add_elastic_and_damping_forces(const SpringBatch& batch, const Vectors& pos
   });
 }
 
+/// Adds k [n n^T + a (I - n n^T)] (u_i - u_j), a the part of 1 - l0/|l| that `stiffness_across` lets through.
+template <typename StiffnessAcross>
+void add_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements, Vectors& product,
+                 StiffnessAcross&& stiffness_across)
+{
+  Block change;
+  for (const SpringBatch& batch : model.springs)
+  {
+    for_each_block(batch, [&](int i, int n) {
+      const Differences lengths(positions, i, batch.offset);
+      const Differences approaches(displacements, i, batch.offset);
+      for (int s = 0; s < n; ++s)
+      {
+        const Vector l = lengths[s];
+        const Vector u = approaches[s];
+        const double inverse = inverse_length(l);
+        const double across = batch.stiffness * stiffness_across(1.0 - batch.rest_length * inverse);
+        const double along = (batch.stiffness - across) * inverse * inverse * l.dot(u);
+        change.x[s] = -(across * u.x + along * l.x);
+        change.y[s] = -(across * u.y + along * l.y);
+        change.z[s] = -(across * u.z + along * l.z);
+      }
+      add_to_both_ends(change, i, batch.offset, n, product);
+    });
+  }
+}
+
 }  // namespace
 
 void add_spring_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& forces)
@@ -107,26 +134,13 @@ double max_strain(const ClothModel& model, const Vectors& positions)
 void add_stiffness_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
                            Vectors& product)
 {
-  Block change;
-  for (const SpringBatch& batch : model.springs)
-  {
-    for_each_block(batch, [&](int i, int n) {
-      const Differences lengths(positions, i, batch.offset);
-      const Differences approaches(displacements, i, batch.offset);
-      for (int s = 0; s < n; ++s)
-      {
-        const Vector l = lengths[s];
-        const Vector u = approaches[s];
-        const double inverse = inverse_length(l);
-        const double across = batch.stiffness * std::max(0.0, 1.0 - batch.rest_length * inverse);
-        const double along = (batch.stiffness - across) * inverse * inverse * l.dot(u);
-        change.x[s] = -(across * u.x + along * l.x);
-        change.y[s] = -(across * u.y + along * l.y);
-        change.z[s] = -(across * u.z + along * l.z);
-      }
-      add_to_both_ends(change, i, batch.offset, n, product);
-    });
-  }
+  add_product(model, positions, displacements, product, [](double across) { return std::max(0.0, across); });
+}
+
+void add_hessian_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
+                         Vectors& product)
+{
+  add_product(model, positions, displacements, product, [](double across) { return across; });
 }
 
 }  // namespace cloth

@@ -4,7 +4,7 @@
 
 #include "cloth_sim/scene/pin_selection.h"
 #include "cloth_sim/scene/scene_reader.h"
-#include "cloth_sim/scene/start_state.h"
+#include "cloth_sim/scene/scene_start.h"
 #include "cloth_sim/scene/yaml_text.h"
 
 namespace cloth
@@ -148,6 +148,8 @@ Plan make_plan(const SceneParams& scene)
   plan.scene = scene;
   plan.method = find_method(scene.solver.method == "auto" ? automatic_method : scene.solver.method);
   const ClothModel model = make_sheet(scene.sheet);
+  const SceneStart start = scene_start(scene, model);
+  plan.start = start.state;
   plan.lines = {
     spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),
     spring_line(scene.sheet, SpringKind::shear, scene.sheet.shear),
@@ -157,6 +159,7 @@ Plan make_plan(const SceneParams& scene)
     wind_line(scene),
     strain_limit_line(scene),
     pin_line(pins_of(scene.pins, model, model.rest_positions)),
+    { "start", true, start.description },
     method_line(scene),
   };
   if (!strain_limit_line(scene).kept)
@@ -177,7 +180,7 @@ Simulation build_simulation(const Plan& plan)
   setup.method = plan.method;
   setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance };
   setup.time_step = scene.solver.time_step;
-  setup.start = start_state(scene.start, setup.model);
+  setup.start = plan.start;
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
   Simulation simulation(std::move(setup));
   if (!(simulation.time_step() >= Simulation::shortest_step))

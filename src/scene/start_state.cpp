@@ -26,18 +26,25 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& rpy)
       .toRotationMatrix();
 }
 
+Eigen::VectorXd ripple_of(const StartParams& start, const ClothModel& model)
+{
+  Eigen::VectorXd ripple(model.nodes());
+  for (int i = 0; i < model.nodes(); ++i)
+  {
+    const double a = fraction(model.col_of(i), model.cols);
+    const double b = fraction(model.row_of(i), model.rows);
+    ripple[i] = start.ripple * (std::sin(2.0 * pi * a + 0.3) + 0.5 * std::sin(3.0 * pi * b + 1.1)) * b;
+  }
+  return ripple;
+}
+
 ClothState start_state(const StartParams& start, const ClothModel& model)
 {
   ClothState state;
   state.positions = model.rest_positions;
   state.positions.col(0) *= start.initial_stretch[0];
   state.positions.col(2) *= start.initial_stretch[1];
-  for (int i = 0; i < model.nodes(); ++i)
-  {
-    const double a = fraction(model.col_of(i), model.cols);
-    const double b = fraction(model.row_of(i), model.rows);
-    state.positions(i, 1) += start.ripple * (std::sin(2.0 * pi * a + 0.3) + 0.5 * std::sin(3.0 * pi * b + 1.1)) * b;
-  }
+  state.positions.col(1) += ripple_of(start, model);
   state.positions = (state.positions * rotation_of(start.rpy).transpose()).rowwise() + start.position.transpose();
   state.velocities = start.velocity.transpose().replicate(model.nodes(), 1);
   return state;

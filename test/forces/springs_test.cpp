@@ -128,21 +128,27 @@ INSTANTIATE_TEST_SUITE_P(Sizes, DeformedSheet,
                          testing::Values(std::pair(5, 6), std::pair(2, 2), std::pair(2, 1), std::pair(1, 7),
                                          std::pair(3, 140)));
 
-TEST(StiffnessProduct, OfAStretchedSheetIsMinusTheChangeOfTheForceWithPosition)
+/// Central differences of the elastic force along `direction`, with the sign of a stiffness.
+Vectors change_of_force(const ClothModel& model, const Vectors& positions, const Vectors& direction)
 {
-  const ClothModel model = make_sheet(small_sheet());
-  Noise noise;
-  const Vectors positions = 1.4 * model.rest_positions + 0.005 * noise.vectors(model.nodes());
-  const Vectors direction = noise.vectors(model.nodes());
   const Vectors at_rest = Vectors::Zero(model.nodes(), 3);
   constexpr double difference = 1e-6;
   Vectors ahead = at_rest;
   Vectors behind = at_rest;
   add_spring_forces(model, positions + difference * direction, at_rest, ahead);
   add_spring_forces(model, positions - difference * direction, at_rest, behind);
-  Vectors product = at_rest;
+  return (behind - ahead) / (2.0 * difference);
+}
+
+TEST(StiffnessProduct, OfAStretchedSheetIsMinusTheChangeOfTheForceWithPosition)
+{
+  const ClothModel model = make_sheet(small_sheet());
+  Noise noise;
+  const Vectors positions = 1.4 * model.rest_positions + 0.005 * noise.vectors(model.nodes());
+  const Vectors direction = noise.vectors(model.nodes());
+  Vectors product = Vectors::Zero(model.nodes(), 3);
   add_stiffness_product(model, positions, direction, product);
-  EXPECT_TRUE(product.isApprox((behind - ahead) / (2.0 * difference), 1e-7));
+  EXPECT_TRUE(product.isApprox(change_of_force(model, positions, direction), 1e-7));
 }
 
 TEST(StiffnessProduct, OfACompressedSpringHasNoNegativePart)
@@ -159,6 +165,35 @@ TEST(StiffnessProduct, OfACompressedSpringHasNoNegativePart)
   along(1, 2) = 1.0;
   add_stiffness_product(model, positions, along, product);
   EXPECT_DOUBLE_EQ(product(1, 2), 100.0);
+}
+
+TEST(HessianProduct, IsMinusTheChangeOfTheForceWithPositionStretchedOrCompressed)
+{
+  const ClothModel model = make_sheet(small_sheet(3, 140));
+  Noise noise;
+  for (const double stretch : { 0.6, 1.0, 1.4 })
+  {
+    // Cells are 3.6 mm wide.
+    const Vectors positions = stretch * model.rest_positions + 5e-4 * noise.vectors(model.nodes());
+    const Vectors direction = noise.vectors(model.nodes());
+    Vectors product = Vectors::Zero(model.nodes(), 3);
+    add_hessian_product(model, positions, direction, product);
+    EXPECT_TRUE(product.isApprox(change_of_force(model, positions, direction), 1e-6)) << "stretched to " << stretch;
+  }
+}
+
+TEST(HessianProduct, AddsToWhatIsThereAndOfACompressedSpringIsNegativeAcross)
+{
+  const ClothModel model = make_sheet(chain(2, 100.0, 1.0));
+  Vectors positions = model.rest_positions;
+  positions(1, 2) = -0.5;
+  Vectors across = Vectors::Zero(2, 3);
+  across(1, 0) = 1.0;
+  Vectors product = Vectors::Constant(2, 3, 7.0);
+  add_hessian_product(model, positions, across, product);
+  EXPECT_DOUBLE_EQ(product(1, 0), 7.0 - 100.0);
+  EXPECT_DOUBLE_EQ(product(0, 0), 7.0 + 100.0);
+  EXPECT_DOUBLE_EQ(product(1, 2), 7.0);
 }
 
 TEST(ElasticEnergy, OfOneSpringIsHalfKTimesItsExtensionSquared)

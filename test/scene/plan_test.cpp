@@ -80,8 +80,8 @@ TEST(Plan, DoesNotRunWhatItLeavesOut)
 TEST(Plan, HasALineForEveryPartOnceAndInOrder)
 {
   const std::vector<std::string> parts{
-    "structural springs", "shear springs", "flex springs", "gravity",  "viscous damping", "wind",
-    "strain limit",       "pins",          "method",       "time step"
+    "structural springs", "shear springs", "flex springs", "gravity", "viscous damping", "wind",
+    "strain limit",       "pins",          "start",        "method",  "time step"
   };
   const std::vector<std::string> lines = lines_of(four_by_five);
   ASSERT_EQ(lines.size(), parts.size());
@@ -89,6 +89,18 @@ TEST(Plan, HasALineForEveryPartOnceAndInOrder)
   {
     EXPECT_EQ(lines[i].substr(0, lines[i].find(':')), parts[i]);
   }
+}
+
+TEST(Plan, SaysWhereTheSheetStartsAndHoldsIt)
+{
+  EXPECT_EQ(line_of("start", four_by_five), "start: kept, flat");
+  const std::string drawn = "cloth: {rows: 4, cols: 5, initial_stretch: [0.9, 1.0], start: ";
+  EXPECT_EQ(line_of("start", drawn + "catenary}"), "start: kept, catenary, between 2 pinned nodes, relaxed");
+  EXPECT_TRUE(
+      has(line_of("start", drawn + "settled}"), { "start: kept, settled, from catenary in ", " of the weight" }));
+  const Plan plan = make_plan(scene_of("{" + drawn + "settled}}"));
+  EXPECT_EQ(build_simulation(plan).state().positions, plan.start.positions);
+  EXPECT_THROW(make_plan(scene_of("{cloth: {start: catenary}}")), SceneError);
 }
 
 TEST(Plan, TakesVelocityVerletForAutoAndSaysThatTheToleranceIsNotUsed)

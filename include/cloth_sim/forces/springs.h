@@ -24,4 +24,12 @@ double max_strain(const ClothModel& model, const Vectors& positions);
 void add_stiffness_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
                            Vectors& product);
 
+/// Adds H u, H the Hessian of the elastic energy: the whole of -df/dx, which compressed springs make indefinite,
+///
+///   k [n n^T + (1 - l0/|l|) (I - n n^T)] (u_i - u_j),   n = l/|l|
+///
+/// A spring of no length counts as one of no rest length. `displacements` in m, `product` in N, one row a node.
+void add_hessian_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
+                         Vectors& product);
+
 }  // namespace cloth

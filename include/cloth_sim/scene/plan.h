@@ -23,11 +23,12 @@ struct Plan
 {
   SceneParams scene;  ///< without what is left out
   const MethodRow* method = nullptr;
+  ClothState start;  ///< the sheet at time 0
   std::vector<PlanLine> lines;
 };
 
 /// Decides what the scene needs. Throws SceneError where its parts do not fit together (pins outside the sheet, a
-/// node in two pins).
+/// node in two pins, a start that the scene does not have). A settled start is worked out here.
 Plan make_plan(const SceneParams& scene);
 
 /// The simulation of a plan, at time 0.
