@@ -3,8 +3,8 @@
 //   method_table SCENE.yaml [SECONDS]
 //
 // Every method takes the step that it chooses by itself. The scene starts unstretched and without the strain limit, so
-// that there is one trajectory to be compared with: that of rk4 at a twentieth of its own step. How well that agrees with
-// half its step is printed first.
+// that there is one trajectory to be compared with: that of rk4 at a twentieth of its own step. How well that agrees
+// with half its step is printed first.
 
 #include <chrono>
 #include <cmath>

@@ -47,8 +47,7 @@ void SpringJacobian::take_directions(const Vectors& positions, double stiffness_
 {
   const SpringBatch& batch = linearised.batch;
   const size_t size = static_cast<size_t>(batch.size());
-  for (std::vector<double>* const values :
-       { &linearised.across, &linearised.w_x, &linearised.w_y, &linearised.w_z })
+  for (std::vector<double>* const values : { &linearised.across, &linearised.w_x, &linearised.w_y, &linearised.w_z })
   {
     values->resize(size);
   }

@@ -14,19 +14,18 @@ namespace
 /// and so the first stage of the next step.
 const Tableau& tableau()
 {
-  static const std::vector<double> weights{ 35.0 / 384.0,     0.0,         500.0 / 1113.0, 125.0 / 192.0,
-                                            -2187.0 / 6784.0, 11.0 / 84.0, 0.0 };
-  static const Tableau coefficients{
-    { 0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0 },
-    { {},
-      { 1.0 / 5.0 },
-      { 3.0 / 40.0, 9.0 / 40.0 },
-      { 44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0 },
-      { 19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0 },
-      { 9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0 },
-      std::vector<double>(weights.begin(), weights.end() - 1) },
-    weights
-  };
+  static const std::vector<double> weights{ 35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0,
+                                            11.0 / 84.0,  0.0 };
+  static const Tableau coefficients{ { 0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0 },
+                                     { {},
+                                       { 1.0 / 5.0 },
+                                       { 3.0 / 40.0, 9.0 / 40.0 },
+                                       { 44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0 },
+                                       { 19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0 },
+                                       { 9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0,
+                                         -5103.0 / 18656.0 },
+                                       std::vector<double>(weights.begin(), weights.end() - 1) },
+                                     weights };
   return coefficients;
 }
 
@@ -38,10 +37,9 @@ const std::vector<double>& error_weights()
   return weights;
 }
 
-/// Steps as long as the error estimate allows: the greatest of |e_x| and h |e_v| over all nodes, in m, is held below the
-/// tolerance. An infinite tolerance takes every step as it is given.
-/// The step follows Gustafsson's control with the constants of Hairer, Norsett and Wanner, "Solving Ordinary
-/// Differential Equations I", II.4 and IV.2.
+/// Steps as long as the error estimate allows: the greatest of |e_x| and h |e_v| over all nodes, in m, is held below
+/// the tolerance. An infinite tolerance takes every step as it is given. The step follows Gustafsson's control with the
+/// constants of Hairer, Norsett and Wanner, "Solving Ordinary Differential Equations I", II.4 and IV.2.
 class DormandPrince5 : public Method
 {
 public:
@@ -96,8 +94,9 @@ private:
     Vectors error_in_positions = Vectors::Zero(state.positions.rows(), 3);
     Vectors error_in_velocities = error_in_positions;
     stages_.add_weighted(h, error_weights(), error_in_positions, error_in_velocities);
-    const double largest = std::max(error_in_positions.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>(),
-                                    h * h * error_in_velocities.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
+    const double largest =
+        std::max(error_in_positions.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>(),
+                 h * h * error_in_velocities.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
     return std::sqrt(largest) / tolerance_;
   }
 

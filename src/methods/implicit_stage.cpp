@@ -65,8 +65,7 @@ void ImplicitStage::solve(const Dynamics& dynamics, double time, double s, const
   report.converged = report.converged && is_solved;
 }
 
-void ImplicitStage::find_residual(const Equation& equation, Vectors& positions, Vectors& velocities,
-                                  StepReport& report)
+void ImplicitStage::find_residual(const Equation& equation, Vectors& positions, Vectors& velocities, StepReport& report)
 {
   const Dynamics& dynamics = equation.dynamics;
   dynamics.pins().impose_velocities(equation.time, velocities);

@@ -17,16 +17,16 @@ namespace cloth
 /// solved by conjugate gradients preconditioned with M. They keep the momentum, the sum of M v, exactly as the first
 /// guess has it, which falls freely. Where they find that compressed springs have made the matrix indefinite, the
 /// destabilising part of K is cut down to what the masses can carry, and they begin again. A step that overshoots is
-/// shortened by the line search of Matthies and Strang, "The solution of nonlinear finite element equations", 1979, which
-/// needs no energy, so that damping and wind may take part.
+/// shortened by the line search of Matthies and Strang, "The solution of nonlinear finite element equations", 1979,
+/// which needs no energy, so that damping and wind may take part.
 class ImplicitStage
 {
 public:
   /// Of the velocities that the equation leaves open, in parts of the largest velocity or change of velocity.
   static constexpr double residual_bound = 1e-9;
 
-  /// Solves for v (m/s) and x (m), which overwrite `velocities` and `positions`. Adds the cost to `report`; not converged
-  /// after `most_iterations`, the last iterate stands and the report says so.
+  /// Solves for v (m/s) and x (m), which overwrite `velocities` and `positions`. Adds the cost to `report`; not
+  /// converged after `most_iterations`, the last iterate stands and the report says so.
   void solve(const Dynamics& dynamics, double time, double s, const Vectors& base_positions,
              const Vectors& base_velocities, Vectors& positions, Vectors& velocities, StepReport& report);
 

@@ -9,9 +9,10 @@ namespace cloth
 
 const std::vector<MethodRow>& methods()
 {
-  static const std::vector<MethodRow> table{ explicit_euler, symplectic_euler, velocity_verlet,   midpoint,
-                                             rk4,            dopri5,           implicit_euler,    implicit_midpoint,
-                                             tr_bdf2,        projective,       xpbd };
+  static const std::vector<MethodRow> table{
+    explicit_euler, symplectic_euler,  velocity_verlet, midpoint,   rk4, dopri5,
+    implicit_euler, implicit_midpoint, tr_bdf2,         projective, xpbd
+  };
   return table;
 }
 

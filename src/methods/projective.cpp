@@ -10,9 +10,9 @@ namespace cloth
 namespace
 {
 
-/// The matrix of the global step over the free nodes, A = M + h C + h^2 L, one unknown a node: L is the Laplacian of the
-/// springs weighted by their stiffness; C has the dampings, of the springs and of the air, as if they acted in every
-/// direction. Factorised once for a step length, a set of pinned nodes and the springs and air as they are.
+/// The matrix of the global step over the free nodes, A = M + h C + h^2 L, one unknown a node: L is the Laplacian of
+/// the springs weighted by their stiffness; C has the dampings, of the springs and of the air, as if they acted in
+/// every direction. Factorised once for a step length, a set of pinned nodes and the springs and air as they are.
 class GlobalMatrix
 {
 public:

@@ -161,8 +161,7 @@ double stability_limit(const Tableau& tableau, const Mode& mode)
   // Of two real eigenvalues the larger one is met first.
   const bool is_undamped = d == 0.0;
   const std::complex<double> eigenvalue =
-      is_undamped ? std::complex<double>(0.0, w) :
-                    -0.5 * d - std::sqrt(std::complex<double>(0.25 * d * d - w * w));
+      is_undamped ? std::complex<double>(0.0, w) : -0.5 * d - std::sqrt(std::complex<double>(0.25 * d * d - w * w));
   const double size = std::abs(eigenvalue);
   return first_growth(growth_along(stability_polynomial(tableau), eigenvalue / size)) / size;
 }

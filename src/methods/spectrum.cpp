@@ -100,8 +100,7 @@ double largest_damping_ratio(const ClothModel& model)
 class NodeBlocks
 {
 public:
-  explicit NodeBlocks(const ClothModel& model)
-    : blocks_(static_cast<size_t>(model.nodes()), Eigen::Matrix3d::Zero())
+  explicit NodeBlocks(const ClothModel& model) : blocks_(static_cast<size_t>(model.nodes()), Eigen::Matrix3d::Zero())
   {
   }
 
@@ -163,13 +162,13 @@ DampingBounds damping_bounds(const Dynamics& dynamics, const Vectors& positions,
 {
   NodeBlocks undamped(dynamics.model());
   NodeBlocks damping(dynamics.model());
-  for_each_stiffness(dynamics.model(), positions,
-                     [&](const SpringBatch& batch, int i, int j, const Eigen::Matrix3d& along,
-                         const Eigen::Matrix3d& across) {
-                       const double damped_stiffness = damping_ratio > 0.0 ? batch.damping / damping_ratio : 0.0;
-                       undamped.add(i, j, (batch.stiffness - damped_stiffness) * along + across);
-                       damping.add(i, j, batch.damping * along);
-                     });
+  for_each_stiffness(
+      dynamics.model(), positions,
+      [&](const SpringBatch& batch, int i, int j, const Eigen::Matrix3d& along, const Eigen::Matrix3d& across) {
+        const double damped_stiffness = damping_ratio > 0.0 ? batch.damping / damping_ratio : 0.0;
+        undamped.add(i, j, (batch.stiffness - damped_stiffness) * along + across);
+        damping.add(i, j, batch.damping * along);
+      });
   return { undamped.bound(dynamics), damping.bound(dynamics) };
 }
 

@@ -33,8 +33,7 @@ public:
     base_positions_ = from_middle * state.positions - from_start * start_.positions;
     base_velocities_ = from_middle * state.velocities - from_start * start_.velocities;
     state.time = start_.time + h;
-    stage_.solve(dynamics, state.time, s, base_positions_, base_velocities_, state.positions, state.velocities,
-                 report);
+    stage_.solve(dynamics, state.time, s, base_positions_, base_velocities_, state.positions, state.velocities, report);
     accelerations_ = (state.velocities - base_velocities_) / s;
     dynamics.pins().clear_held(accelerations_);
     return report;

@@ -8,9 +8,9 @@ namespace cloth
 namespace
 {
 
-/// Extended position-based dynamics (Macklin, Mueller and Chentanez 2016) in small substeps of one pass over the springs
-/// each (Macklin et al., "Small steps in physics simulation", 2019). A spring is the constraint |l| = l0 with the
-/// compliance 1/k and internal damping c in their physical units (equation 26 of 2016, with one pass):
+/// Extended position-based dynamics (Macklin, Mueller and Chentanez 2016) in small substeps of one pass over the
+/// springs each (Macklin et al., "Small steps in physics simulation", 2019). A spring is the constraint |l| = l0 with
+/// the compliance 1/k and internal damping c in their physical units (equation 26 of 2016, with one pass):
 ///
 ///   lambda = -(|l| - l0 + gamma h n . (v_j - v_i)) / ((1 + gamma) (1/m_i + 1/m_j) + 1/(k h^2)),  gamma = c/(k h)
 ///
@@ -63,8 +63,8 @@ private:
   /// always the same, and so is the result.
   void project(const SpringBatch& batch, double h, ClothState& state) const
   {
-    const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h),
-                       compliance_ / (batch.stiffness * h * h), batch.rest_length };
+    const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h), compliance_ / (batch.stiffness * h * h),
+                       batch.rest_length };
     for (const int colour : { 0, 1 })
     {
       for_each_spring(batch, [&](int i, int j) {

@@ -153,8 +153,8 @@ std::vector<Parameter<SceneParams>> make_table()
     Scene::number("solver.tolerance", "m", positive,
                   "dopri5: bounds the estimated position error of a step; auto does not use it yet",
                   CLOTH_MEMBER(solver.tolerance)),
-    Scene::integer("solver.iterations", 1, 10000,
-                   "projective: local-global iterations a step; xpbd: substeps a step", CLOTH_MEMBER(solver.iterations)),
+    Scene::integer("solver.iterations", 1, 10000, "projective: local-global iterations a step; xpbd: substeps a step",
+                   CLOTH_MEMBER(solver.iterations)),
     Scene::number("solver.compliance", "", unit_interval,
                   "xpbd: factor on the springs' compliance 1/k; 1: stiffness means the same as in every other method, "
                   "0: position-based dynamics",

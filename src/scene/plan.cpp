@@ -117,8 +117,9 @@ std::string settings_of(const SolverParams& solver)
   }
   if (solver.method == "xpbd")
   {
-    return "; " + counted(static_cast<size_t>(solver.iterations), "substep") + " a step, the springs' compliance times " +
-           format_number(solver.compliance) + (solver.compliance == 0.0 ? ": position-based dynamics" : "");
+    return "; " + counted(static_cast<size_t>(solver.iterations), "substep") +
+           " a step, the springs' compliance times " + format_number(solver.compliance) +
+           (solver.compliance == 0.0 ? ": position-based dynamics" : "");
   }
   return "";
 }

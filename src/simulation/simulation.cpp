@@ -78,7 +78,8 @@ bool Simulation::advance_to(double time)
   {
     if (!(longest >= shortest_step))
     {
-      divergence_ = Divergence{ state_.time, 0, "no step of " + std::string(method_row_->name) + " is stable any more" };
+      divergence_ =
+          Divergence{ state_.time, 0, "no step of " + std::string(method_row_->name) + " is stable any more" };
       break;
     }
     if (method_row_->is_adaptive)

@@ -19,7 +19,8 @@ constexpr int steps = 1000000;
 class EnergyDrift : public testing::TestWithParam<MethodRow>
 {
 protected:
-  /// The omega h at which the claimed drift adds up to half a percent of the energy; where none is claimed, a large one.
+  /// The omega h at which the claimed drift adds up to half a percent of the energy; where none is claimed, a large
+  /// one.
   static double telling_step()
   {
     const auto [factor, power] = GetParam().energy_drift;

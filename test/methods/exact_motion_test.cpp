@@ -202,9 +202,8 @@ TEST_P(EveryMethod, SwingsAMembraneAtItsFrequency)
   const double pull = (1.0 - 1.0 / stretch);  // T/(k a), and T_d/(k_d d) too
   const double x = p * M_PI / cells;
   const double y = q * M_PI / cells;
-  const double stiffness =
-      4.0 * 80.0 * pull * (std::pow(std::sin(0.5 * x), 2) + std::pow(std::sin(0.5 * y), 2)) +
-      4.0 * 50.0 * pull * (1.0 - std::cos(x) * std::cos(y));
+  const double stiffness = 4.0 * 80.0 * pull * (std::pow(std::sin(0.5 * x), 2) + std::pow(std::sin(0.5 * y), 2)) +
+                           4.0 * 50.0 * pull * (1.0 - std::cos(x) * std::cos(y));
   const double frequency = std::sqrt(stiffness / model.masses[0]);
 
   ClothState state{ stretched, Vectors::Zero(model.nodes(), 3), 0.0 };
@@ -231,8 +230,7 @@ TEST_P(EveryMethod, SwingsAMembraneAtItsFrequency)
     method->step(dynamics, time / steps, state);
   }
   const double measured = shape.dot(state.positions.col(1)) / shape.squaredNorm() / amplitude;
-  EXPECT_NEAR(measured, std::cos(frequency * time),
-              5.0 * std::pow(frequency * time / steps, GetParam().order) + 1e-8);
+  EXPECT_NEAR(measured, std::cos(frequency * time), 5.0 * std::pow(frequency * time / steps, GetParam().order) + 1e-8);
 }
 
 TEST_P(EveryMethod, KeepsTheRotatingPairAtItsLength)

@@ -149,16 +149,20 @@ TEST_P(Order, IsTheClaimedOneOnASheetInWind)
   dynamics.pins().hold(still_pin("right", { 5 }, start.positions));
   dynamics.pins().impose(0.0, start.positions, start.velocities);
   const std::vector<ClothState> reference = integrate(*find_method("rk4"), dynamics, start, end, 32000);
-  expect_order(GetParam(), GetParam().order == 1 ? 4160 : GetParam().order > 4 ? 440 : 520, [&](int steps) {
-    const std::vector<ClothState> states = integrate(GetParam(), dynamics, start, end, steps);
-    double sum = 0.0;
-    for (int p = 0; p < parts; ++p)
-    {
-      const size_t part = static_cast<size_t>(p);
-      sum += squared_distance(states[part], reference[part].positions, reference[part].velocities);
-    }
-    return std::sqrt(sum / parts);
-  });
+  expect_order(GetParam(),
+               GetParam().order == 1 ? 4160 :
+               GetParam().order > 4  ? 440 :
+                                       520,
+               [&](int steps) {
+                 const std::vector<ClothState> states = integrate(GetParam(), dynamics, start, end, steps);
+                 double sum = 0.0;
+                 for (int p = 0; p < parts; ++p)
+                 {
+                   const size_t part = static_cast<size_t>(p);
+                   sum += squared_distance(states[part], reference[part].positions, reference[part].velocities);
+                 }
+                 return std::sqrt(sum / parts);
+               });
 }
 
 }  // namespace

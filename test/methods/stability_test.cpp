@@ -213,8 +213,8 @@ TEST_P(Stability, OfASheetEndsAtItsClaimedLimit)
     else
     {
       EXPECT_LT(disturbance_after(GetParam(), dynamics, rest, 0.98 * limit), 50.0);
-      EXPECT_GT(
-          disturbance_after(GetParam(), dynamics, rest, factor_that_shows_growth(GetParam(), ratio) * limit), 1000.0);
+      EXPECT_GT(disturbance_after(GetParam(), dynamics, rest, factor_that_shows_growth(GetParam(), ratio) * limit),
+                1000.0);
     }
   }
 }
@@ -241,8 +241,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, StabilityLimit, testing::ValuesIn(limited_meth
 
 TEST_P(StabilityLimit, HoldsForAStretchedSheetInWind)
 {
-  // Some of its modes are damped by the air alone, so that the claimed limit may be far below the true one. Without flex
-  // springs the evenly stretched sheet is in equilibrium.
+  // Some of its modes are damped by the air alone, so that the claimed limit may be far below the true one. Without
+  // flex springs the evenly stretched sheet is in equilibrium.
   SheetProperties sheet = small_sheet(5, 5);
   sheet.flex = { 0.0, 0.0 };
   Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), { 0.5, 2.0, { 0.0, 0.0, 0.0 } });

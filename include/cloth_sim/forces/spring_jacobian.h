@@ -18,9 +18,9 @@ namespace cloth
 /// make the matrix unsymmetric, and a small error in the matrix costs Newton's method a little speed, not accuracy
 /// (Baraff and Witkin, "Large steps in cloth simulation", 1998, leave it out of their damping as well).
 ///
-/// Under compression 1 - l0/|l| is negative, and K may be indefinite. Leaving the negative part out (Choi and Ko, "Stable
-/// but responsive cloth", 2002) is safe and slow to converge; here as much of it is kept as the masses can carry, see
-/// `linearise`.
+/// Under compression 1 - l0/|l| is negative, and K may be indefinite. Leaving the negative part out (Choi and Ko,
+/// "Stable but responsive cloth", 2002) is safe and slow to converge; here as much of it is kept as the masses can
+/// carry, see `linearise`.
 class SpringJacobian
 {
 public:

@@ -28,8 +28,8 @@ struct Spectrum
 ///
 /// omega^2, the largest eigenvalue of M^-1 K, comes from the Lanczos form of the power iteration, started from a vector
 /// of noise. Its Ritz value is never above the eigenvalue; with the residual added it is a bound that is hardly ever
-/// missed (Zhou and Li, "Bounding the spectrum of large Hermitian matrices", 2011), and 1 % is added for the rest. Where
-/// the bound of `stiffness_bound` is lower, that is taken.
+/// missed (Zhou and Li, "Bounding the spectrum of large Hermitian matrices", 2011), and 1 % is added for the rest.
+/// Where the bound of `stiffness_bound` is lower, that is taken.
 Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions);
 
 /// A bound that holds for omega^2, 1/s2, at the price of two force evaluations: each spring's 6 x 6 matrix [A -A; -A A]

@@ -50,7 +50,7 @@ public:
     std::uint64_t linear_solves = 0;
     std::uint64_t rejected_steps = 0;     ///< tried by an adaptive method and thrown away
     std::uint64_t unconverged_steps = 0;  ///< whose equations the method did not solve to its bound
-    std::uint64_t limit_sweeps = 0;  ///< passes of the strain limit over the springs
+    std::uint64_t limit_sweeps = 0;       ///< passes of the strain limit over the springs
   };
 
   /// Throws std::invalid_argument where the setup's sizes do not fit together or no method is named.
