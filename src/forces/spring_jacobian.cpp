@@ -115,6 +115,8 @@ void SpringJacobian::add_product(const Vectors& u, Vectors& product) const
       const double* const w_y = linearised.w_y.data() + done;
       const double* const w_z = linearised.w_z.data() + done;
       const Differences approaches(u, i, batch.offset);
+      // The compiler cannot see that `change` overlaps none of what is read.
+#pragma GCC ivdep
       for (int s = 0; s < n; ++s)
       {
         const Vector d = approaches[s];
