@@ -4,3 +4,16 @@
 
 add_executable(stability_map EXCLUDE_FROM_ALL bench/stability_map.cpp)
 target_link_libraries(stability_map cloth_core)
+
+find_package(benchmark QUIET)
+if(benchmark_FOUND)
+  add_executable(linear_solver EXCLUDE_FROM_ALL
+    bench/assembled_matrix.cpp
+    bench/linear_solver.cpp
+  )
+  target_include_directories(linear_solver PRIVATE src/methods)
+  target_compile_options(linear_solver PRIVATE $<$<CONFIG:Release>:-O3>)
+  target_link_libraries(linear_solver cloth_core benchmark::benchmark)
+else()
+  message(STATUS "Google Benchmark (libbenchmark-dev) is missing: bench/linear_solver.cpp is left out")
+endif()
