@@ -209,7 +209,7 @@ Vectors rows_of(const Eigen::VectorXd& side_by_side)
 void report(benchmark::State& state, const System& system, const Vectors& x, int iterations)
 {
   state.counters["residual"] = system.relative_residual(x);
-  state.counters["iterations"] = iterations;
+  state.counters["solver_iterations"] = iterations;
   state.counters["cut"] = system.is_cut();
 }
 
