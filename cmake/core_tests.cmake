@@ -13,6 +13,16 @@ function(cloth_add_test room)
   target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/test)
 endfunction()
 
+# The older interface of SUNDIALS 5 and before does not do.
+find_package(SUNDIALS 6 QUIET COMPONENTS cvode nvecserial sunlinsoldense sunmatrixdense sunnonlinsolfixedpoint)
+if(SUNDIALS_FOUND)
+  set(agreement_test test/methods/agreement_test.cpp)
+  set(agreement_libraries SUNDIALS::cvode SUNDIALS::nvecserial SUNDIALS::sunlinsoldense SUNDIALS::sunmatrixdense
+    SUNDIALS::sunnonlinsolfixedpoint)
+else()
+  message(STATUS "SUNDIALS 6 (libsundials-dev) is missing: test/methods/agreement_test.cpp is left out")
+endif()
+
 cloth_add_test(model
   test/model/cloth_model_test.cpp
 )
@@ -27,12 +37,14 @@ cloth_add_test(constraints
   test/constraints/strain_limit_test.cpp
 )
 cloth_add_test(methods
+  ${agreement_test}
   test/methods/energy_drift_test.cpp
   test/methods/exact_motion_test.cpp
   test/methods/order_test.cpp
   test/methods/spectrum_test.cpp
   test/methods/stability_test.cpp
 )
+target_link_libraries(test_methods ${agreement_libraries})
 cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp

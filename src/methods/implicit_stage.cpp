@@ -9,11 +9,6 @@ namespace cloth
 namespace
 {
 
-double dot(const Vectors& a, const Vectors& b)
-{
-  return a.cwiseProduct(b).sum();
-}
-
 /// The largest |u_i| / m_i.
 double largest_per_mass(const Vectors& u, const Eigen::VectorXd& masses)
 {
@@ -114,36 +109,13 @@ void ImplicitStage::multiply(const Equation& equation, const Vectors& u, Vectors
   dynamics.pins().clear_held(product);
 }
 
-/// Conjugate gradients, to a part of the residual that costs Newton's method hardly an iteration.
+/// To a part of the residual that costs Newton's method hardly an iteration.
 bool ImplicitStage::find_direction(const Equation& equation, StepReport& report)
 {
   constexpr double part = 1e-3;
-  constexpr int most_iterations = 1000;
-  const auto masses = equation.dynamics.model().masses.array();
-  direction_.setZero(residual_.rows(), 3);
-  remainder_ = -residual_;
-  preconditioned_ = remainder_.array().colwise() / masses;
-  search_ = preconditioned_;
-  double squared = dot(remainder_, preconditioned_);
-  const double enough = part * part * squared;
   ++report.linear_solves;
-  for (int i = 0; i < most_iterations && squared > enough; ++i)
-  {
-    multiply(equation, search_, product_);
-    const double curvature = dot(search_, product_);
-    if (!(curvature > 0.0))
-    {
-      return false;
-    }
-    const double length = squared / curvature;
-    direction_ += length * search_;
-    remainder_ -= length * product_;
-    preconditioned_ = remainder_.array().colwise() / masses;
-    const double next = dot(remainder_, preconditioned_);
-    search_ = preconditioned_ + (next / squared) * search_;
-    squared = next;
-  }
-  return true;
+  const auto product_of = [&](const Vectors& u, Vectors& product) { multiply(equation, u, product); };
+  return linear_solver_.solve(product_of, equation.dynamics.model().masses, residual_, part, direction_);
 }
 
 /// Goes along the direction until the residual's component along it has fallen enough; it is a descent direction of the

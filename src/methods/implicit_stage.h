@@ -2,6 +2,7 @@
 
 #include "cloth_sim/forces/spring_jacobian.h"
 #include "cloth_sim/methods/method.h"
+#include "conjugate_gradients.h"
 
 namespace cloth
 {
@@ -57,10 +58,7 @@ private:
   Vectors residual_;
   Vectors direction_;
   Vectors start_;
-  Vectors remainder_;
-  Vectors preconditioned_;
-  Vectors search_;
-  Vectors product_;
+  ConjugateGradients linear_solver_;
 };
 
 }  // namespace cloth
