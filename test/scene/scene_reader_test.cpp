@@ -46,6 +46,8 @@ solver:
   method: auto
   time_step: 0
   tolerance: 1.0e-3
+  iterations: 10
+  compliance: 1
 rate: 30
 real_time_factor: 1.0
 clock_mode: follow
@@ -121,7 +123,7 @@ strain_limit: {max_strain: 3.1, sweeps: 7}
 air: {viscous_damping: 4.1, wind_coupling: 4.2, wind: [10, 11, 12]}
 pins:
   - {name: one, nodes: [[1, -2], [0, 0]], motion: {amplitude: [13, 14, 15], frequency: 5.1, phase: 5.2}}
-solver: {method: rk4, time_step: 6.1, tolerance: 6.2}
+solver: {method: xpbd, time_step: 6.1, tolerance: 6.2, iterations: 7, compliance: 0.3}
 rate: 7.1
 real_time_factor: 7.2
 clock_mode: follow
@@ -154,9 +156,11 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.air.viscous_damping, 4.1);
   EXPECT_EQ(scene.air.wind_coupling, 4.2);
   EXPECT_EQ(scene.air.wind, Vector3d(10, 11, 12));
-  EXPECT_EQ(scene.solver.method, "rk4");
+  EXPECT_EQ(scene.solver.method, "xpbd");
   EXPECT_EQ(scene.solver.time_step, 6.1);
   EXPECT_EQ(scene.solver.tolerance, 6.2);
+  EXPECT_EQ(scene.solver.iterations, 7);
+  EXPECT_EQ(scene.solver.compliance, 0.3);
   EXPECT_EQ(scene.node.rate, 7.1);
   EXPECT_EQ(scene.node.real_time_factor, 7.2);
   EXPECT_EQ(scene.node.colouring, "strain");
@@ -205,10 +209,10 @@ TEST(SceneReader, TakesAnIntegerForANumberButNoNumberForAnInteger)
 TEST(SceneReader, GathersAllFaults)
 {
   const std::string faults = faults_of(R"({gravity: [0, 0], cloth: {rows: 0, mass: heavy, colour: red}, sprigns: {},
-    pins: [{name: 1a, at: middle}, 5], solver: {method: xpbd}})");
+    pins: [{name: 1a, at: middle}, 5], solver: {method: leapfrog}})");
   EXPECT_TRUE(has(faults, { "gravity is [0, 0]; ", "cloth.rows is 0; ", "cloth.mass is heavy; ", "cloth.colour is not ",
                             "sprigns is not ", "pins[0].name is 1a; ", "pins[0].at is middle; ", "pins[1] is 5; ",
-                            "solver.method is xpbd, which is not built yet; " }));
+                            "solver.method is leapfrog; " }));
   EXPECT_EQ(std::count(faults.begin(), faults.end(), '\n') + 1, 9) << faults;
 }
 

@@ -65,8 +65,8 @@ TEST_F(ClothRun, ExitsWith2AndNamesKeyValueAndWhatIsAllowedOnABadScene)
     { write("bad.yaml", "cloth: {mass: -1}"), "cloth.mass is -1; allowed: a number > 0.0" },
     { write("typo.yaml", "cloth: {mas: 1}"), "cloth.mas is not a key; allowed in cloth: rows, cols, " },
     { write("off.yaml", "pins: [{name: a, nodes: [[99, 0]]}]"), "pins[0].nodes has [99, 0]; allowed: rows -32 to 31" },
-    { small_scene() + " --set solver.method=xpbd",
-      "solver.method is xpbd, which is not built yet; allowed: one of auto, " },
+    { small_scene() + " --set solver.method=leapfrog",
+      "solver.method is leapfrog; allowed: one of auto, explicit_euler, " },
     { small_scene() + " --set cloth.rows=many", "cloth.rows is many; allowed: an integer from 1 to 4096" },
     { small_scene() + " --set gravity=[0,0", "gravity is [0,0, which is no YAML" },
   };
