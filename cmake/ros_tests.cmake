@@ -15,9 +15,8 @@ target_link_libraries(test_ros cloth_ros ${GTEST_MAIN_LIBRARIES})
 target_include_directories(test_ros PRIVATE test)
 
 find_package(rosbag REQUIRED)
-find_package(rosgraph_msgs REQUIRED)
 find_package(rostest REQUIRED)
-include_directories(SYSTEM ${rosbag_INCLUDE_DIRS} ${rosgraph_msgs_INCLUDE_DIRS})
+include_directories(SYSTEM ${rosbag_INCLUDE_DIRS})
 
 add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
   test/ros/child_process.cpp
