@@ -154,8 +154,9 @@ Answer ClothNode::step()
 Answer ClothNode::reset()
 {
   apply_requests();  // what came before the reset is undone by it
-  statistics_.restart(cloth_->simulation.state().time);
+  const double simulated_time = cloth_->simulation.state().time;
   cloth_->restart();
+  statistics_.restart(simulated_time);
   start_over();
   return { true, "back at the start" };
 }

@@ -45,8 +45,11 @@ void NodeClock::show(const Tick& tick)
 
 void NodeClock::set_paused(bool paused)
 {
-  paused_ = paused;
-  ticks_.interrupt();
+  if (paused != paused_)
+  {
+    paused_ = paused;
+    ticks_.interrupt();
+  }
 }
 
 void NodeClock::restart(const NodeParams& node)

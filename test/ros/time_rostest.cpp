@@ -169,6 +169,11 @@ TEST_F(Time, ResetBringsBackAClothThatHasDiverged)
   ASSERT_TRUE(set_paused(false).success);
   ASSERT_TRUE(wait_until([&] { return node.output().find("diverged at") != std::string::npos; })) << node.output();
   ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return state.sim_time > 0.0; }));
+  ASSERT_TRUE(set_paused(true).success);
+  const auto answer = trigger("step");
+  EXPECT_FALSE(answer.success);
+  EXPECT_NE(answer.message.find("~reset brings the cloth back"), std::string::npos) << answer.message;
+  ASSERT_TRUE(set_paused(false).success);
 
   ASSERT_TRUE(trigger("reset").success);
   ASSERT_TRUE(wait_for_sim_time(0.0));
