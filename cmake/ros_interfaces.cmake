@@ -3,8 +3,10 @@ find_package(catkin REQUIRED COMPONENTS
   geometry_msgs
   message_generation
   roscpp
+  rosgraph_msgs
   roslib
   std_msgs
+  std_srvs
   tf2
   tf2_ros
   visualization_msgs

@@ -2,11 +2,16 @@ include_directories(SYSTEM ${catkin_INCLUDE_DIRS})
 
 # The ROS layer on top of the core: everything that the node does, as a library that tests can link, and a thin main.
 add_library(cloth_ros STATIC
+  src/ros/answering_services.cpp
+  src/ros/clock_publisher.cpp
   src/ros/cloth_node.cpp
   src/ros/conversions.cpp
+  src/ros/errands.cpp
   src/ros/frames.cpp
+  src/ros/live_cloth.cpp
   src/ros/mesh_marker.cpp
   src/ros/messages.cpp
+  src/ros/node_clock.cpp
   src/ros/node_scene.cpp
   src/ros/pin_markers.cpp
   src/ros/pin_requests.cpp

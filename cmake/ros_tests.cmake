@@ -1,6 +1,7 @@
 # Tests of the ROS layer: those of its parts need no master; the rostests run the node on a master of their own.
 catkin_add_gtest(test_ros
   test/ros/conversions_test.cpp
+  test/ros/errands_test.cpp
   test/ros/mesh_marker_test.cpp
   test/ros/messages_test.cpp
   test/ros/node_scene_test.cpp
@@ -15,9 +16,8 @@ target_link_libraries(test_ros cloth_ros ${GTEST_MAIN_LIBRARIES})
 target_include_directories(test_ros PRIVATE test)
 
 find_package(rosbag REQUIRED)
-find_package(rosgraph_msgs REQUIRED)
 find_package(rostest REQUIRED)
-include_directories(SYSTEM ${rosbag_INCLUDE_DIRS} ${rosgraph_msgs_INCLUDE_DIRS})
+include_directories(SYSTEM ${rosbag_INCLUDE_DIRS})
 
 add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
   test/ros/child_process.cpp
@@ -25,7 +25,7 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence requests start_up streams)
+foreach(name bag clock divergence master_clock reload requests start_up streams time)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
   )

@@ -1,7 +1,7 @@
 #include "cloth_node.h"
 
-#include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include <ros/console.h>
 #include <ros/init.h>
@@ -9,11 +9,12 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "cloth_sim/ClothStats.h"
-#include "cloth_sim/ClothTopology.h"
-#include "cloth_sim/scene/start_state.h"
+#include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/yaml_text.h"
 
+#include "answering_services.h"
 #include "messages.h"
+#include "node_scene.h"
 #include "pin_requests.h"
 #include "wind_request.h"
 
@@ -24,40 +25,55 @@ namespace
 
 using WallClock = std::chrono::steady_clock;
 
-/// The cloth of a node never changes its grid.
-constexpr std::uint32_t topology_version = 1;
-
-MeshColouring colouring_of(const SceneParams& scene)
+void log_plan(const LiveCloth& cloth)
 {
-  return { scene.node.fabric_colour, scene.node.colouring == "strain", scene.strain_limit.max_strain };
+  ROS_INFO("%s", joined(describe(cloth.plan, cloth.simulation), "\n").c_str());
+  const std::string warning = time_step_warning(cloth.simulation);
+  if (!warning.empty())
+  {
+    ROS_WARN("%s: the cloth will diverge", warning.c_str());
+  }
 }
 
-/// The direction of a chain's width at the start.
-Eigen::Vector3d across_chain(const SceneParams& scene)
+cloth_sim::ClothTopology topology_of(const LiveCloth& cloth, std::uint32_t version)
 {
-  const Eigen::Vector3d at_rest = scene.sheet.cols == 1 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
-  return rotation_of(scene.start.rpy) * at_rest;
+  cloth_sim::ClothTopology message = topology_message(cloth.simulation.model(), version);
+  message.header.frame_id = cloth.plan.scene.frame_id;
+  return message;
+}
+
+/// Whether the two say the same, whenever it was.
+bool same_topology(cloth_sim::ClothTopology left, const cloth_sim::ClothTopology& right)
+{
+  left.header.stamp = right.header.stamp;
+  left.header.seq = right.header.seq;
+  return left == right;
+}
+
+void require_clock_mode(const SceneParams& scene, const std::string& mode)
+{
+  if (scene.node.clock_mode != mode)
+  {
+    throw SceneError("clock_mode is " + scene.node.clock_mode + "; allowed: " + mode +
+                     ", with which the node was started");
+  }
 }
 
 }  // namespace
 
-ClothNode::ClothNode(const ros::NodeHandle& private_node, const Plan& plan)
+ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& scene)
   : private_node_(private_node)
-  , plan_(plan)
-  , simulation_(build_simulation(plan_))
-  , clock_(plan_.scene.node.rate, plan_.scene.node.real_time_factor)
+  , cloth_(std::make_unique<LiveCloth>(scene))
+  , clock_(scene.node)
   , statistics_(WallClock::now())
   , refusals_([](const std::string& cause) { ROS_WARN("refused: %s", cause.c_str()); })
   , transform_listener_(transforms_)
-  , frames_(plan_.scene.frame_id, transforms_)
-  , mesh_marker_(simulation_.model(), plan_.scene.frame_id, colouring_of(plan_.scene), across_chain(plan_.scene))
-  , spring_marker_(simulation_.model(), plan_.scene.frame_id)
-  , pin_markers_(simulation_.model(), plan_.scene.frame_id)
+  , frames_(scene.frame_id, transforms_)
+  , topology_message_(topology_of(*cloth_, 1))
 {
-  state_message_.header.frame_id = plan_.scene.frame_id;
-  state_message_.topology_version = topology_version;
-  log_start();
+  log_plan(*cloth_);
   advertise();
+  advertise_services();
   subscribe();
 }
 
@@ -72,20 +88,22 @@ void ClothNode::advertise()
   stats_ = private_node_.advertise<cloth_sim::ClothStats>("stats", 10);
 }
 
+void ClothNode::advertise_services()
+{
+  const auto done_by_tick = [this](Answer (ClothNode::*action)()) {
+    return [this, action] { return errands_.send([this, action] { return (this->*action)(); }); };
+  };
+  const auto pause = [this](bool paused) { return errands_.send([this, paused] { return set_paused(paused); }); };
+  services_ = { advertise_switch(private_node_, "set_paused", pause),
+                advertise_trigger(private_node_, "step", done_by_tick(&ClothNode::step)),
+                advertise_trigger(private_node_, "reset", done_by_tick(&ClothNode::reset)),
+                advertise_trigger(private_node_, "reload", [this] { return reload(); }) };
+}
+
 void ClothNode::subscribe()
 {
   wind_ = private_node_.subscribe("wind", 10, &ClothNode::take_wind, this);
   pin_ = private_node_.subscribe("pin", RequestQueue::most_waiting, &ClothNode::take_pin, this);
-}
-
-void ClothNode::log_start() const
-{
-  ROS_INFO("%s", joined(describe(plan_, simulation_), "\n").c_str());
-  const std::string warning = time_step_warning(simulation_);
-  if (!warning.empty())
-  {
-    ROS_WARN("%s: the cloth will diverge", warning.c_str());
-  }
 }
 
 void ClothNode::take_wind(const geometry_msgs::Vector3Stamped& request)
@@ -114,19 +132,94 @@ void ClothNode::take_pin(const cloth_sim::Pin::ConstPtr& request)
   }
 }
 
+Answer ClothNode::set_paused(bool paused)
+{
+  clock_.set_paused(paused);
+  return { true, paused ? "paused" : "running" };
+}
+
+Answer ClothNode::step()
+{
+  if (!clock_.paused())
+  {
+    return { false, "the cloth is running: only a paused one is stepped; ~set_paused pauses it" };
+  }
+  run_tick(clock_.step());
+  const Simulation& simulation = cloth_->simulation;
+  return simulation.divergence() ?
+             Answer{ false, simulation.divergence_report() + "; ~reset brings the cloth back to its start" } :
+             Answer{ true, "sim_time is " + format_number(simulation.state().time) + " s" };
+}
+
+Answer ClothNode::reset()
+{
+  apply_requests();  // what came before the reset is undone by it
+  const double simulated_time = cloth_->simulation.state().time;
+  cloth_->restart();
+  statistics_.restart(simulated_time);
+  start_over();
+  return { true, "back at the start" };
+}
+
+/// In the caller's thread: the cloth on show goes on while the next is made.
+Answer ClothNode::reload()
+{
+  try
+  {
+    const SceneParams scene = scene_from_parameters(private_node_.getNamespace());
+    require_clock_mode(scene, clock_.is_master() ? "master" : "follow");
+    auto next = std::make_unique<LiveCloth>(scene);
+    log_plan(*next);
+    return errands_.send([&] { return replace_cloth(std::move(next)); });
+  }
+  catch (const std::exception& error)
+  {
+    ROS_WARN("refused: ~reload: %s", error.what());
+    return { false, error.what() };
+  }
+}
+
+Answer ClothNode::replace_cloth(std::unique_ptr<LiveCloth> next)
+{
+  apply_requests();  // they were meant for the old cloth
+  statistics_.restart(cloth_->simulation.state().time);
+  if (const auto* markers = cloth_->pins.update({}, cloth_->simulation.state().positions, clock_.now()))
+  {
+    pins_.publish(*markers);
+  }
+  cloth_ = std::move(next);
+  frames_.set_frame_id(cloth_->plan.scene.frame_id);
+  if (!same_topology(topology_of(*cloth_, topology_message_.version), topology_message_))
+  {
+    topology_message_ = topology_of(*cloth_, topology_message_.version + 1);
+    publish_topology();
+  }
+  start_over();
+  return { true, "the scene of the parameter server is at its start" };
+}
+
+void ClothNode::start_over()
+{
+  clock_.restart(cloth_->plan.scene.node);
+  divergence_reported_ = false;
+  publish_cloth(clock_.now());
+}
+
 void ClothNode::run()
 {
+  const Errands::Doer doer(errands_);
   publish_topology();
-  publish_cloth(ros::Time::now());
+  publish_cloth(clock_.now());
   while (ros::ok())
   {
-    if (const auto tick = clock_.take(ros::Time::now()))
+    doer.do_all();
+    if (const auto tick = clock_.take())
     {
       run_tick(*tick);
     }
     else
     {
-      wait_for_tick();
+      idle();
     }
     publish_stats_when_due();
   }
@@ -137,46 +230,62 @@ void ClothNode::run_tick(const Tick& tick)
   const auto start = WallClock::now();
   apply_requests();
   advance(tick.simulated_time);
+  clock_.show(tick);
   publish_cloth(tick.stamp);
   statistics_.add(WallClock::now() - start);
 }
 
-void ClothNode::apply_requests()
+void ClothNode::idle()
 {
-  for (const RequestQueue::Request& request : requests_.take_all())
+  if (clock_.paused() && apply_requests())
+  {
+    publish_cloth(clock_.now());
+  }
+  clock_.rest().sleep();
+}
+
+bool ClothNode::apply_requests()
+{
+  const auto requests = requests_.take_all();
+  for (const RequestQueue::Request& request : requests)
   {
     try
     {
-      request(simulation_);
+      request(cloth_->simulation);
     }
     catch (const RefusedRequest& refusal)
     {
       refusals_.report("~pin: " + std::string(refusal.what()));
     }
   }
+  return !requests.empty();
 }
 
 void ClothNode::advance(double simulated_time)
 {
-  if (!simulation_.advance_to(simulated_time) && !divergence_reported_)
+  if (!cloth_->simulation.advance_to(simulated_time) && !divergence_reported_)
   {
     divergence_reported_ = true;
-    ROS_ERROR("%s. The last good state is kept and published.", simulation_.divergence_report().c_str());
+    ROS_ERROR("%s. The last good state is kept and published until ~reset or ~reload.",
+              cloth_->simulation.divergence_report().c_str());
   }
 }
 
 void ClothNode::publish_cloth(const ros::Time& stamp)
 {
-  const Vectors& positions = simulation_.state().positions;
+  const Simulation& simulation = cloth_->simulation;
+  const Vectors& positions = simulation.state().positions;
+  state_message_.header.frame_id = cloth_->plan.scene.frame_id;
   state_message_.header.stamp = stamp;
-  fill_state(simulation_, state_message_);
+  state_message_.topology_version = topology_message_.version;
+  fill_state(simulation, state_message_);
   state_.publish(state_message_);
-  mesh_.publish(mesh_marker_.update(positions, stamp));
+  mesh_.publish(cloth_->mesh.update(positions, stamp));
   if (springs_.getNumSubscribers() > 0)
   {
-    springs_.publish(spring_marker_.update(positions, stamp));
+    springs_.publish(cloth_->springs.update(positions, stamp));
   }
-  if (const auto* markers = pin_markers_.update(simulation_.pins().all(), positions, stamp))
+  if (const auto* markers = cloth_->pins.update(simulation.pins().all(), positions, stamp))
   {
     pins_.publish(*markers);
   }
@@ -184,10 +293,8 @@ void ClothNode::publish_cloth(const ros::Time& stamp)
 
 void ClothNode::publish_topology()
 {
-  cloth_sim::ClothTopology message = topology_message(simulation_.model(), topology_version);
-  message.header.stamp = ros::Time::now();
-  message.header.frame_id = plan_.scene.frame_id;
-  topology_.publish(message);
+  topology_message_.header.stamp = clock_.now();
+  topology_.publish(topology_message_);
 }
 
 void ClothNode::publish_stats_when_due()
@@ -197,28 +304,23 @@ void ClothNode::publish_stats_when_due()
   {
     return;
   }
-  cloth_sim::ClothStats message = stats_message(simulation_, statistics_.take(now, simulation_.state().time));
-  message.header.stamp = ros::Time::now();
-  message.header.frame_id = plan_.scene.frame_id;
+  const Simulation& simulation = cloth_->simulation;
+  cloth_sim::ClothStats message = stats_message(simulation, statistics_.take(now, simulation.state().time));
+  message.header.stamp = clock_.now();
+  message.header.frame_id = cloth_->plan.scene.frame_id;
   message.overruns = clock_.overruns();
-  message.plan = joined(describe(plan_, simulation_), "\n");
+  message.paused = clock_.paused() ? 1 : 0;
+  message.plan = joined(describe(cloth_->plan, simulation), "\n");
   stats_.publish(message);
-  const std::string unsolved = convergence_warning(simulation_);
+  if (clock_.paused())
+  {
+    state_.publish(state_message_);  // for those who came since
+  }
+  const std::string unsolved = convergence_warning(simulation);
   if (!unsolved.empty())
   {
     ROS_WARN_THROTTLE(60.0, "%s", unsolved.c_str());
   }
-}
-
-void ClothNode::wait_for_tick() const
-{
-  // Simulated ROS time may pass at any speed and a shutdown may come: look often.
-  constexpr double longest_wait = 0.02;
-  constexpr double simulated_clock_wait = 0.001;
-  const double until_next = clock_.until_next(ros::Time::now()).toSec();
-  ros::WallDuration(ros::Time::isSimTime() || until_next == 0.0 ? simulated_clock_wait :
-                                                                  std::min(until_next, longest_wait))
-      .sleep();
 }
 
 }  // namespace cloth

@@ -51,7 +51,7 @@ int main(int argc, char** argv)
   try
   {
     const auto scene = cloth::scene_from_parameters(private_node.getNamespace());
-    cloth::ClothNode node(private_node, cloth::make_plan(scene));
+    cloth::ClothNode node(private_node, scene);
     ros::AsyncSpinner spinner(1);
     spinner.start();
     node.run();

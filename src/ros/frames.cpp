@@ -15,22 +15,35 @@ Frames::Frames(std::string frame_id, const tf2::BufferCore& transforms)
 {
 }
 
+std::string Frames::frame_id() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return frame_id_;
+}
+
+void Frames::set_frame_id(const std::string& frame_id)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frame_id_ = frame_id;
+}
+
 Eigen::Isometry3d Frames::from(const std::string& source) const
 {
-  if (source.empty() || source == frame_id_)
+  const std::string target = frame_id();
+  if (source.empty() || source == target)
   {
     return Eigen::Isometry3d::Identity();
   }
   try
   {
-    const auto transform = transforms_.lookupTransform(frame_id_, source, ros::Time(0)).transform;
+    const auto transform = transforms_.lookupTransform(target, source, ros::Time(0)).transform;
     const auto& t = transform.translation;
     const auto& q = transform.rotation;
     return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
   }
   catch (const tf2::TransformException&)
   {
-    throw RefusedRequest("tf knows no transform from frame '" + source + "' to '" + frame_id_ + "'");
+    throw RefusedRequest("tf knows no transform from frame '" + source + "' to '" + target + "'");
   }
 }
 

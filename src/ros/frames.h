@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -9,23 +10,24 @@
 namespace cloth
 {
 
-/// The way from other tf frames into the cloth's, by the latest transforms; never waits for one.
+/// The way from other tf frames into the cloth's, by the latest transforms; never waits for one. May be used from
+/// several threads.
 class Frames
 {
 public:
   /// `transforms` must outlive this object; another thread may fill it meanwhile.
   Frames(std::string frame_id, const tf2::BufferCore& transforms);
 
-  const std::string& frame_id() const
-  {
-    return frame_id_;
-  }
+  std::string frame_id() const;
+  /// The cloth's frame from now on.
+  void set_frame_id(const std::string& frame_id);
 
   /// Takes points (m) of the frame `source` into the cloth's frame, as the two stand now; an empty name is the cloth's
   /// frame. Throws RefusedRequest where tf does not know the way.
   Eigen::Isometry3d from(const std::string& source) const;
 
 private:
+  mutable std::mutex mutex_;
   std::string frame_id_;
   const tf2::BufferCore& transforms_;
 };

@@ -30,7 +30,7 @@ std::optional<Tick> TickClock::take(const ros::Time& now)
   latest_ = now;
   if (real_time_factor_ == 0.0)
   {
-    return Tick{ now, static_cast<double>(++taken_) / rate_ };
+    return next_tick(now);
   }
   drop_backlog(now);
   const ros::Time due = due_time();
@@ -39,7 +39,17 @@ std::optional<Tick> TickClock::take(const ros::Time& now)
     return std::nullopt;
   }
   ++next_;
-  return Tick{ due, static_cast<double>(++taken_) * real_time_factor_ / rate_ };
+  return next_tick(due);
+}
+
+Tick TickClock::step(const ros::Time& now)
+{
+  return next_tick(now);
+}
+
+void TickClock::interrupt()
+{
+  anchor_ = ros::Time();
 }
 
 ros::Duration TickClock::until_next(const ros::Time& now) const
@@ -61,6 +71,12 @@ ros::Time TickClock::due_time() const
   ros::Duration after_anchor;
   after_anchor.fromNSec(std::llround(static_cast<double>(next_) * nanoseconds / rate_));
   return anchor_ + after_anchor;
+}
+
+Tick TickClock::next_tick(const ros::Time& stamp)
+{
+  const double factor = real_time_factor_ == 0.0 ? 1.0 : real_time_factor_;
+  return { stamp, static_cast<double>(++taken_) * factor / rate_ };
 }
 
 void TickClock::start_at(const ros::Time& now)

@@ -23,7 +23,7 @@ struct Tick
 /// more than `max_backlog` back; older ones are dropped, and the simulation falls behind ROS time by their length. When
 /// time jumps backwards, the ticks go on from there; while it stands still, none is due.
 ///
-/// Reads no clock itself: every call is told the ROS time, zero meaning that there is none yet.
+/// Reads no clock itself: every call is told the time, zero meaning that there is none yet.
 class TickClock
 {
 public:
@@ -35,6 +35,12 @@ public:
 
   /// The next tick, if it is due at `now`.
   std::optional<Tick> take(const ros::Time& now);
+
+  /// The next tick, due or not, stamped `now`.
+  Tick step(const ros::Time& now);
+
+  /// Leaves out the time until the next call of `take`: what falls due meanwhile is neither caught up nor counted.
+  void interrupt();
 
   /// How long after `now`, the time of the last call of `take`, the next tick is due. Zero when it is due.
   ros::Duration until_next(const ros::Time& now) const;
@@ -50,6 +56,7 @@ public:
 
 private:
   ros::Time due_time() const;
+  Tick next_tick(const ros::Time& stamp);
   void start_at(const ros::Time& now);
   void drop_backlog(const ros::Time& now);
 

@@ -29,6 +29,12 @@ public:
     return now - start_ >= period;
   }
 
+  /// The simulated time, which is now `simulated_time` (s), begins at 0 again.
+  void restart(double simulated_time)
+  {
+    simulated_at_start_ -= simulated_time;
+  }
+
   /// The period that ends now, at `simulated_time` (s); begins the next.
   TickReport take(Clock::time_point now, double simulated_time);
 

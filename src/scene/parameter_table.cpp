@@ -164,9 +164,11 @@ std::vector<Parameter<SceneParams>> make_table()
                            CLOTH_MEMBER(node.rate))),
     for_node(Scene::number("real_time_factor", "", not_negative, "simulated seconds in a second; 0: as fast as it can",
                            CLOTH_MEMBER(node.real_time_factor))),
-    for_node(Scene::choice("clock_mode", { "follow" }, { "master" }, "follow: paced by ROS time",
+    for_node(Scene::choice("clock_mode", { "follow", "master" }, {},
+                           "follow: paced by ROS time; master: publishes /clock, paced by wall time, one message a "
+                           "tick; rate and real_time_factor count by wall time then",
                            CLOTH_MEMBER(node.clock_mode))),
-    for_node(Scene::choice("start_paused", { "false" }, { "true" }, "whether time stands still at the start",
+    for_node(Scene::choice("start_paused", { "false", "true" }, {}, "whether time stands still at the start",
                            CLOTH_MEMBER(node.start_paused))),
     for_node(Scene::choice("display.colouring", { "fabric", "strain" }, {},
                            "colour of the mesh: the fabric's, or the strain of the springs at each node",

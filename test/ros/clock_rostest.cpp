@@ -9,6 +9,7 @@
 
 #include "child_process.h"
 #include "listener.h"
+#include "time_services.h"
 
 namespace cloth
 {
@@ -85,6 +86,17 @@ TEST_F(SimulatedTime, BeforeTheFirstClockTheStartIsShownAndStatsCome)
   EXPECT_EQ(stats_.last().sim_time, 0.0);
 }
 
+TEST_F(SimulatedTime, BeforeTheFirstClockTheServicesAnswer)
+{
+  ASSERT_TRUE(set_paused(true).success);
+  EXPECT_TRUE(trigger("step").success);
+  EXPECT_TRUE(state_.wait_for_one([](const cloth_sim::ClothState& state) { return state.sim_time > 0.0; }));
+  EXPECT_TRUE(trigger("reload").success);
+  EXPECT_TRUE(trigger("reset").success);
+  EXPECT_TRUE(state_.wait_for_one([](const cloth_sim::ClothState& state) { return state.sim_time == 0.0; }));
+  EXPECT_TRUE(set_paused(false).success);
+}
+
 TEST_F(SimulatedTime, BeforeTheFirstClockASignalEndsTheNode)
 {
   ChildProcess other({ CLOTH_NODE, "__name:=other" });
@@ -113,6 +125,38 @@ TEST_F(SimulatedTime, NoTickWhileTheClockStands)
   const size_t states = state_.all().size();
   ASSERT_TRUE(stats_.wait_for_more(2));
   EXPECT_EQ(state_.all().size(), states);
+}
+
+TEST_F(SimulatedTime, WhileTheClockStandsTheServicesAnswer)
+{
+  ASSERT_TRUE(drive_for_states(2));
+  ASSERT_TRUE(stand());
+  const double simulated = state_.last().sim_time;
+  ASSERT_TRUE(set_paused(true).success);
+  EXPECT_TRUE(trigger("step").success);
+  EXPECT_TRUE(state_.wait_for_one([=](const cloth_sim::ClothState& state) { return state.sim_time > simulated; }));
+  EXPECT_NEAR(state_.last().sim_time, simulated + 1.0 / rate, 1e-12);
+  EXPECT_TRUE(trigger("reset").success);
+  EXPECT_TRUE(set_paused(false).success);
+  EXPECT_TRUE(state_.wait_for_one([](const cloth_sim::ClothState& state) { return state.sim_time == 0.0; }));
+}
+
+TEST_F(SimulatedTime, PausedTimeIsNeitherCaughtUpNorCounted)
+{
+  ASSERT_TRUE(drive_for_states(2));
+  ASSERT_TRUE(stand());
+  const double simulated = state_.last().sim_time;
+  const auto overruns = stats_.last().overruns;
+  ASSERT_TRUE(set_paused(true).success);
+  show_time(now_ + ros::Duration(1000.0));
+  ASSERT_TRUE(stats_.wait_for_one([&](const cloth_sim::ClothStats& stats) { return stats.header.stamp == now_; }));
+  EXPECT_EQ(stats_.last().sim_time, simulated);
+  ASSERT_TRUE(set_paused(false).success);
+  state_.forget();
+  ASSERT_TRUE(drive_for_states(3));
+  ASSERT_TRUE(stand());
+  EXPECT_LT(state_.last().sim_time, simulated + 10.0);
+  EXPECT_LT(stats_.last().overruns, overruns + 900 * static_cast<unsigned>(rate));
 }
 
 TEST_F(SimulatedTime, TheClothGoesOnWhenTheClockJumpsBackwards)

@@ -3,56 +3,18 @@
 #include <ostream>
 
 #include <gtest/gtest.h>
-#include <ros/param.h>
 #include <visualization_msgs/Marker.h>
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothTopology.h"
 
-#include "child_process.h"
 #include "listener.h"
+#include "node_process.h"
 
 namespace cloth
 {
 namespace
 {
-
-/// The node with `arguments`, and a clean namespace of its own on the parameter server.
-class Node
-{
-public:
-  explicit Node(const std::vector<std::string>& arguments) : process_(command(arguments))
-  {
-  }
-
-  bool wait_for_end()
-  {
-    return wait_until([&] { return process_.exit_status().has_value(); });
-  }
-  int exit_status()
-  {
-    return process_.exit_status().value_or(-1);
-  }
-  std::string output() const
-  {
-    return process_.output();
-  }
-  void signal(int number) const
-  {
-    process_.signal(number);
-  }
-
-private:
-  static std::vector<std::string> command(const std::vector<std::string>& arguments)
-  {
-    ros::param::del("/cloth_node");
-    std::vector<std::string> words{ CLOTH_NODE };
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return words;
-  }
-
-  ChildProcess process_;
-};
 
 struct BadParameter
 {
@@ -72,7 +34,7 @@ class BadParameters : public testing::TestWithParam<BadParameter>
 TEST_P(BadParameters, AreNamedAndEndTheNode)
 {
   Listener<visualization_msgs::Marker> mesh("/cloth_node/mesh");
-  Node node(GetParam().arguments);
+  NodeProcess node(GetParam().arguments);
   ASSERT_TRUE(node.wait_for_end());
   EXPECT_EQ(node.exit_status(), 1);
   EXPECT_TRUE(mesh.all().empty());
@@ -89,14 +51,14 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{ { "_cloth/mass:=-0.1" }, { "cloth.mass", "-0.1", "> 0.0" } },
                     BadParameter{ { "_gravity:=[0,0,.nan]" }, { "gravity", ".nan", "3 finite numbers" } },
                     BadParameter{ { "_rate:=0" }, { "rate", "0", "> 0.0" } },
-                    BadParameter{ { "_clock_mode:=master" }, { "clock_mode", "master", "not built yet", "follow" } },
+                    BadParameter{ { "_clock_mode:=master" }, { "clock_mode", "master", "/use_sim_time", "follow" } },
                     BadParameter{ { "_cloth/rows:=0", "_solver/metod:=rk4" }, { "cloth.rows", "solver.metod" } }));
 
 TEST(StartUp, WithoutParametersTheHangingSheetIsShown)
 {
   Listener<cloth_sim::ClothTopology> topology("/cloth_node/topology");
   Listener<cloth_sim::ClothState> state("/cloth_node/state");
-  Node node({});
+  NodeProcess node({});
   ASSERT_TRUE(topology.wait_for(1));
   EXPECT_EQ(topology.last().rows, 32u);
   // Its ripple tells it from the flat sheet of an empty scene.
@@ -110,7 +72,7 @@ TEST(StartUp, WithoutParametersTheHangingSheetIsShown)
 TEST(StartUp, KeysOfTheNodeAreLaidOverTheHangingSheet)
 {
   Listener<cloth_sim::ClothState> state("/cloth_node/state");
-  Node node({ "_rate:=10" });
+  NodeProcess node({ "_rate:=10" });
   ASSERT_TRUE(state.wait_for(4));
   EXPECT_NE(state.last().positions[3 * 500 + 1], 0.0F);
   EXPECT_NEAR(state.all()[3].sim_time - state.all()[2].sim_time, 0.1, 1e-12);
@@ -119,7 +81,7 @@ TEST(StartUp, KeysOfTheNodeAreLaidOverTheHangingSheet)
 TEST(StartUp, TextOfTheCommandLineIsTakenAsNumbers)
 {
   Listener<cloth_sim::ClothTopology> topology("/cloth_node/topology");
-  Node node({ "_cloth/rows:=20", "_cloth/cols:=5", "_gravity:=[0,0,-1]", "_solver/time_step:=1e-3" });
+  NodeProcess node({ "_cloth/rows:=20", "_cloth/cols:=5", "_gravity:=[0,0,-1]", "_solver/time_step:=1e-3" });
   ASSERT_TRUE(topology.wait_for(1));
   EXPECT_EQ(topology.last().rows, 20u);
   node.signal(SIGINT);
@@ -131,7 +93,8 @@ TEST(StartUp, TextOfTheCommandLineIsTakenAsNumbers)
 TEST(StartUp, AChainIsDrawnAsARibbon)
 {
   Listener<visualization_msgs::Marker> mesh("/cloth_node/mesh");
-  Node node({ "_cloth/rows:=5", "_cloth/cols:=1", "_cloth/width:=0.02", "_pins:=[{name: top, nodes: [[0, 0]]}]" });
+  NodeProcess node(
+      { "_cloth/rows:=5", "_cloth/cols:=1", "_cloth/width:=0.02", "_pins:=[{name: top, nodes: [[0, 0]]}]" });
   ASSERT_TRUE(mesh.wait_for(1));
   EXPECT_EQ(mesh.last().points.size(), 3u * 2u * 4u);
 }
@@ -139,7 +102,7 @@ TEST(StartUp, AChainIsDrawnAsARibbon)
 TEST(StartUp, StrainColoursTellStretchedFromSlack)
 {
   Listener<visualization_msgs::Marker> mesh("/cloth_node/mesh");
-  Node node({ "_display/colouring:=strain" });
+  NodeProcess node({ "_display/colouring:=strain" });
   const auto most_red = [](const visualization_msgs::Marker& marker) {
     float most = -1.0F;
     for (const auto& colour : marker.colors)
@@ -167,7 +130,7 @@ class EndBy : public testing::TestWithParam<int>
 TEST_P(EndBy, ASignalIsNoFailure)
 {
   Listener<cloth_sim::ClothState> state("/cloth_node/state");
-  Node node({ "_rate:=50", "_cloth/rows:=8" });
+  NodeProcess node({ "_rate:=50", "_cloth/rows:=8" });
   ASSERT_TRUE(state.wait_for(1));
   node.signal(GetParam());
   ASSERT_TRUE(node.wait_for_end());

@@ -111,6 +111,32 @@ TEST(TickClock, GoesOnFromWhereTimeJumpsBackTo)
   EXPECT_EQ(clock.overruns(), 0u);
 }
 
+TEST(TickClock, StepsWhenTold)
+{
+  TickClock clock(10.0, 2.0);
+  clock.take(start);
+  const Tick tick = clock.step(after(0.03));
+  EXPECT_EQ(tick.stamp, after(0.03));
+  EXPECT_DOUBLE_EQ(tick.simulated_time, 0.2);
+  EXPECT_DOUBLE_EQ(clock.step(after(0.03)).simulated_time, 0.4);
+  EXPECT_DOUBLE_EQ(TickClock(10.0, 0.0).step(ros::Time()).simulated_time, 0.1);
+}
+
+TEST(TickClock, AnInterruptionIsNeitherCaughtUpNorCounted)
+{
+  TickClock clock(10.0, 1.0);
+  clock.take(start);
+  clock.take(after(0.1));
+  clock.interrupt();
+  EXPECT_FALSE(clock.take(after(50.03)));
+  EXPECT_FALSE(clock.take(after(50.12)));
+  const auto tick = clock.take(after(50.13));
+  ASSERT_TRUE(tick);
+  EXPECT_EQ(tick->stamp, after(50.13));
+  EXPECT_DOUBLE_EQ(tick->simulated_time, 0.2);
+  EXPECT_EQ(clock.overruns(), 0u);
+}
+
 TEST(TickClock, SaysHowLongToWait)
 {
   TickClock clock(10.0, 1.0);

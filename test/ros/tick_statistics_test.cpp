@@ -36,5 +36,13 @@ TEST(TickStatistics, BeginsAnewAfterwards)
   EXPECT_DOUBLE_EQ(report.real_time_factor, 0.5);
 }
 
+TEST(TickStatistics, SimulatedTimeMayBeginAgain)
+{
+  TickStatistics statistics(start);
+  statistics.take(start + milliseconds(1000), 4.0);
+  statistics.restart(4.5);
+  EXPECT_DOUBLE_EQ(statistics.take(start + milliseconds(2000), 0.25).real_time_factor, 0.75);
+}
+
 }  // namespace
 }  // namespace cloth

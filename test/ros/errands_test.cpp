@@ -1,0 +1,66 @@
+#include "errands.h"
+
+#include <chrono>
+#include <future>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace cloth
+{
+namespace
+{
+
+std::future<Answer> sent(Errands& errands, const Errands::Errand& errand)
+{
+  return std::async(std::launch::async, [&errands, errand] { return errands.send(errand); });
+}
+
+Answer done(const Errands::Doer& doer, std::future<Answer>& answer)
+{
+  while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready)
+  {
+    doer.do_all();
+  }
+  return answer.get();
+}
+
+TEST(Errands, AreAnsweredByTheDoersThread)
+{
+  Errands errands;
+  const Errands::Doer doer(errands);
+  std::thread::id thread;
+  auto answer = sent(errands, [&] {
+    thread = std::this_thread::get_id();
+    return Answer{ true, "done" };
+  });
+  EXPECT_EQ(done(doer, answer).message, "done");
+  EXPECT_EQ(thread, std::this_thread::get_id());
+}
+
+TEST(Errands, WhatOneThrowsGoesToItsSender)
+{
+  Errands errands;
+  const Errands::Doer doer(errands);
+  auto answer = sent(errands, []() -> Answer { throw std::runtime_error("broken"); });
+  EXPECT_THROW(done(doer, answer), std::runtime_error);
+}
+
+TEST(Errands, AreRefusedWhenTheDoerGoes)
+{
+  Errands errands;
+  std::optional<Errands::Doer> doer(std::in_place, errands);
+  const auto never = [] {
+    ADD_FAILURE() << "done after the end";
+    return Answer{};
+  };
+  auto answer = sent(errands, never);
+  doer.reset();
+  EXPECT_FALSE(answer.get().success) << "whether it came before the end or after";
+  EXPECT_FALSE(errands.send(never).success);
+}
+
+}  // namespace
+}  // namespace cloth
