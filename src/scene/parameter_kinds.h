@@ -220,17 +220,16 @@ struct RowsOf
     return parameter;
   }
 
-  /// One of some words. `planned` are words that belong to the interface but are not built yet.
+  /// One of some words.
   template <typename Access>
-  static Parameter<Target> choice(const char* key, const std::vector<std::string>& words,
-                                  const std::vector<std::string>& planned, const char* meaning, Access access)
+  static Parameter<Target> choice(const char* key, const std::vector<std::string>& words, const char* meaning,
+                                  Access access)
   {
     Parameter<Target> parameter;
     parameter.key = key;
     parameter.type = "text";
     parameter.allowed = "one of " + joined(words);
     parameter.meaning = meaning;
-    parameter.planned = planned;
     parameter.set = [=](const YAML::Node& value, Target& target) {
       const std::string word = value.IsScalar() ? value.Scalar() : std::string();
       if (std::find(words.begin(), words.end(), word) == words.end())

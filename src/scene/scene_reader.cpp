@@ -93,13 +93,6 @@ private:
 
   void set(const Parameter<Target>& parameter, const YAML::Node& value, Target& target)
   {
-    const std::vector<std::string>& planned = parameter.planned;
-    if (value.IsScalar() && std::find(planned.begin(), planned.end(), value.Scalar()) != planned.end())
-    {
-      faults_.push_back(full_name(parameter.key) + " is " + shown(value) +
-                        ", which is not built yet; allowed: " + parameter.allowed);
-      return;
-    }
     try
     {
       parameter.set(value, target);

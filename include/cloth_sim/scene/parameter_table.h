@@ -20,8 +20,6 @@ struct Parameter
   std::string unit;     ///< empty: none
   std::string allowed;  ///< the range in words
   std::string meaning;
-  /// Words that belong to the interface but are not built yet: refused by name.
-  std::vector<std::string> planned;
   /// Takes the value into the target; throws std::invalid_argument where it is not allowed.
   std::function<void(const YAML::Node& value, Target& target)> set;
   /// The value as it is written in YAML.
