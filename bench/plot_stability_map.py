@@ -80,8 +80,8 @@ def draw_maps(figure, grid, limited):
         predicted = column(rows, "predicted")
         axes.fill_between(ratios, predicted, color=STABLE, linewidth=0)
         axes.plot(ratios, predicted, color=PREDICTED, linewidth=1.4, label="predicted")
-        axes.plot(ratios, column(rows, "measured"), "o", color=MEASURED, markersize=3.2, label="measured", clip_on=False,
-                  zorder=3)
+        axes.plot(ratios, column(rows, "measured"), "o", color=MEASURED, markersize=3.2, label="measured",
+                  clip_on=False, zorder=3)
         axes.set_title(name)
         axes.set_xlim(0.0, 2.0)
         axes.set_ylim(0.0, highest)

@@ -136,7 +136,7 @@ double measured_limit(const MethodRow& row, double damping_ratio)
       return infinity;
     }
     stable = growing;
-    // No explicit method of order 5 or less has its limit beyond 5.
+    // The explicit methods have their limits below 5; for the others every stride is one probe more.
     growing = std::min(longest, (growing < 5.0 ? 1.05 : 1.5) * growing);
   }
   if (stable == 0.0)
