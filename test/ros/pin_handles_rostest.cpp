@@ -5,6 +5,7 @@
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
+#include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
@@ -119,6 +120,13 @@ protected:
     ASSERT_TRUE(ros::service::call("/cloth_node/reset", reset));
     ASSERT_TRUE(state_.wait_for_one(
         [](const ClothState& state) { return pinned(state, still_node) && pinned(state, swinging_node); }));
+  }
+
+  static void set_paused(bool paused)
+  {
+    std_srvs::SetBool request;
+    request.request.data = static_cast<std::uint8_t>(paused);
+    ASSERT_TRUE(ros::service::call("/cloth_node/set_paused", request));
   }
 
   /// What rviz sends when a user does `event` with the handle `name`.
@@ -288,6 +296,18 @@ TEST_F(PinHandlesTest, ADragThatFallsSilentIsOver)
   EXPECT_TRUE(updates_.wait_for_one([&](const auto& update) {
     return pose_in(update, "swinging") != nullptr && !places(update, "swinging", mouse);
   }));
+}
+
+TEST_F(PinHandlesTest, AHandleWaitsAtItsGoalWhileTheClothIsPaused)
+{
+  set_paused(true);
+  const Eigen::Vector3d goal = still_middle(state_.last()) + Eigen::Vector3d(0, 0.1, 0);
+  send("still", Feedback::POSE_UPDATE, goal);
+  send("still", Feedback::MOUSE_UP, goal);
+  EXPECT_TRUE(updates_.wait_for_one([&](const auto& update) { return places(update, "still", goal); }));
+  EXPECT_GT((still_middle(state_.last()) - goal).norm(), 0.05);
+  set_paused(false);
+  EXPECT_TRUE(wait_for_still_at(goal));
 }
 
 TEST_F(PinHandlesTest, AClickedPointPinsTheNodeNearestToIt)
