@@ -1,6 +1,7 @@
 # Messages, and what the package offers to others. Before any target, so that catkin's output folders apply to all.
 find_package(catkin REQUIRED COMPONENTS
   geometry_msgs
+  interactive_markers
   message_generation
   roscpp
   rosgraph_msgs

@@ -13,6 +13,7 @@ add_library(cloth_ros STATIC
   src/ros/messages.cpp
   src/ros/node_clock.cpp
   src/ros/node_scene.cpp
+  src/ros/pin_handles.cpp
   src/ros/pin_markers.cpp
   src/ros/pin_requests.cpp
   src/ros/refusal_log.cpp

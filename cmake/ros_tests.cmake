@@ -25,7 +25,7 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence master_clock reload requests start_up streams time)
+foreach(name bag clock divergence master_clock pin_handles reload requests start_up streams time)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
   )

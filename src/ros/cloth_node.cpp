@@ -1,5 +1,6 @@
 #include "cloth_node.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -70,6 +71,8 @@ ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& sce
   , transform_listener_(transforms_)
   , frames_(scene.frame_id, transforms_)
   , topology_message_(topology_of(*cloth_, 1))
+  , handles_(private_node_.getNamespace() + "/pin_handles",
+             [this](const PinHandles::Feedback::ConstPtr& feedback) { take_feedback(feedback); })
 {
   log_plan(*cloth_);
   advertise();
@@ -104,31 +107,58 @@ void ClothNode::subscribe()
 {
   wind_ = private_node_.subscribe("wind", 10, &ClothNode::take_wind, this);
   pin_ = private_node_.subscribe("pin", RequestQueue::most_waiting, &ClothNode::take_pin, this);
+  pin_point_ = private_node_.subscribe("pin_point", RequestQueue::most_waiting, &ClothNode::take_point, this);
 }
 
 void ClothNode::take_wind(const geometry_msgs::Vector3Stamped& request)
 {
-  try
-  {
-    requests_.leave_wind(wind_of(request, frames_));
-  }
-  catch (const RefusedRequest& refusal)
-  {
-    refusals_.report("~wind: " + std::string(refusal.what()));
-  }
+  report_refusal("~wind", [&] { requests_.leave_wind(wind_of(request, frames_)); });
 }
 
-void ClothNode::take_pin(const cloth_sim::Pin::ConstPtr& request)
+void ClothNode::take_pin(const cloth_sim::Pin& request)
+{
+  leave_pin("~pin", request);
+}
+
+void ClothNode::take_point(const geometry_msgs::PointStamped& point)
+{
+  leave_pin("~pin_point", pin_nearest_to(point));
+}
+
+void ClothNode::leave_pin(const std::string& topic, const cloth_sim::Pin& request)
+{
+  leave(topic, [this, request](Simulation& simulation) {
+    apply_pin(request, frames_, clock_.simulated_period(), simulation);
+  });
+}
+
+void ClothNode::take_feedback(const PinHandles::Feedback::ConstPtr& feedback)
+{
+  leave("~pin_handles", [this, feedback](Simulation& simulation) {
+    if (const auto request = handles_.take(*feedback))
+    {
+      apply_pin(*request, frames_, clock_.simulated_period(), simulation);
+    }
+  });
+}
+
+void ClothNode::leave(const std::string& topic, const RequestQueue::Request& request)
+{
+  report_refusal(topic, [&] {
+    requests_.leave(
+        [this, topic, request](Simulation& simulation) { report_refusal(topic, [&] { request(simulation); }); });
+  });
+}
+
+void ClothNode::report_refusal(const std::string& topic, const std::function<void()>& action)
 {
   try
   {
-    requests_.leave([this, request](Simulation& simulation) {
-      apply_pin(*request, frames_, clock_.simulated_period(), simulation);
-    });
+    action();
   }
   catch (const RefusedRequest& refusal)
   {
-    refusals_.report("~pin: " + std::string(refusal.what()));
+    refusals_.report(topic + ": " + refusal.what());
   }
 }
 
@@ -187,6 +217,7 @@ Answer ClothNode::replace_cloth(std::unique_ptr<LiveCloth> next)
   {
     pins_.publish(*markers);
   }
+  handles_.clear();
   cloth_ = std::move(next);
   frames_.set_frame_id(cloth_->plan.scene.frame_id);
   if (!same_topology(topology_of(*cloth_, topology_message_.version), topology_message_))
@@ -249,14 +280,7 @@ bool ClothNode::apply_requests()
   const auto requests = requests_.take_all();
   for (const RequestQueue::Request& request : requests)
   {
-    try
-    {
-      request(cloth_->simulation);
-    }
-    catch (const RefusedRequest& refusal)
-    {
-      refusals_.report("~pin: " + std::string(refusal.what()));
-    }
+    request(cloth_->simulation);
   }
   return !requests.empty();
 }
@@ -289,6 +313,15 @@ void ClothNode::publish_cloth(const ros::Time& stamp)
   {
     pins_.publish(*markers);
   }
+  show_handles();
+}
+
+void ClothNode::show_handles()
+{
+  const Simulation& simulation = cloth_->simulation;
+  const ClothModel& model = simulation.model();
+  const PinHandles::Style style{ cloth_->plan.scene.frame_id, 0.05 * std::max(model.width, model.height) };
+  handles_.show(simulation.pins().all(), simulation.state().time, style);
 }
 
 void ClothNode::publish_topology()

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <string>
 
+#include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -20,6 +23,7 @@
 #include "frames.h"
 #include "live_cloth.h"
 #include "node_clock.h"
+#include "pin_handles.h"
 #include "refusal_log.h"
 #include "request_queue.h"
 #include "tick_statistics.h"
@@ -45,7 +49,13 @@ private:
   void subscribe();
 
   void take_wind(const geometry_msgs::Vector3Stamped& request);
-  void take_pin(const cloth_sim::Pin::ConstPtr& request);
+  void take_pin(const cloth_sim::Pin& request);
+  void leave_pin(const std::string& topic, const cloth_sim::Pin& request);
+  void take_point(const geometry_msgs::PointStamped& point);
+  void take_feedback(const PinHandles::Feedback::ConstPtr& feedback);
+  /// Leaves the request for the next tick; a refusal, now or then, is reported as one of `topic`.
+  void leave(const std::string& topic, const RequestQueue::Request& request);
+  void report_refusal(const std::string& topic, const std::function<void()>& action);
 
   Answer set_paused(bool paused);
   Answer step();
@@ -59,6 +69,7 @@ private:
   void advance(double simulated_time);
   void start_over();
   void publish_cloth(const ros::Time& stamp);
+  void show_handles();
   void publish_topology();
   void publish_stats_when_due();
 
@@ -86,7 +97,9 @@ private:
   ros::Publisher stats_;
   ros::Subscriber wind_;
   ros::Subscriber pin_;
+  ros::Subscriber pin_point_;
   std::array<ros::ServiceServer, 4> services_;
+  PinHandles handles_;
 };
 
 }  // namespace cloth

@@ -166,4 +166,13 @@ void apply_pin(const cloth_sim::Pin& request, const Frames& frames, double durat
   }
 }
 
+cloth_sim::Pin pin_nearest_to(const geometry_msgs::PointStamped& point)
+{
+  cloth_sim::Pin request;
+  request.action = cloth_sim::Pin::PIN;
+  request.select = cloth_sim::Pin::NEAREST;
+  request.point = point;
+  return request;
+}
+
 }  // namespace cloth

@@ -104,6 +104,18 @@ TEST_F(PinRequests, ANamelessPinIsCalledByItsNode)
   EXPECT_EQ(held("pin_4_1"), std::vector<int>{ 21 });
 }
 
+TEST_F(PinRequests, ANodeNearestToAClickedPointIsCalledByItsRowAndColumn)
+{
+  geometry_msgs::PointStamped clicked;
+  const Eigen::Vector3d node = simulation_.state().positions.row(7);
+  clicked.point.x = node.x() + 0.02;
+  clicked.point.y = node.y();
+  clicked.point.z = node.z() - 0.02;
+  request_ = pin_nearest_to(clicked);
+  apply();
+  EXPECT_EQ(held("pin_1_2"), std::vector<int>{ 7 });
+}
+
 TEST_F(PinRequests, MoveEndsWithinOneTickAtThePoint)
 {
   apply();
