@@ -2,6 +2,7 @@
 find_package(catkin REQUIRED COMPONENTS
   geometry_msgs
   message_generation
+  rosbag_storage
   roscpp
   rosgraph_msgs
   roslib
