@@ -25,11 +25,12 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence master_clock reload requests start_up streams time)
+foreach(name bag clock divergence master_clock reload replay requests start_up streams time)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
   )
   target_link_libraries(ros_${name}_test cloth_rostest)
-  target_compile_definitions(ros_${name}_test PRIVATE CLOTH_NODE="$<TARGET_FILE:cloth_node>")
-  add_dependencies(ros_${name}_test cloth_node)
+  target_compile_definitions(ros_${name}_test PRIVATE CLOTH_NODE="$<TARGET_FILE:cloth_node>"
+    CLOTH_REPLAY="$<TARGET_FILE:cloth_replay>")
+  add_dependencies(ros_${name}_test cloth_node cloth_replay)
 endforeach()
