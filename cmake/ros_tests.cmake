@@ -16,6 +16,7 @@ target_link_libraries(test_ros cloth_ros ${GTEST_MAIN_LIBRARIES})
 target_include_directories(test_ros PRIVATE test)
 
 find_package(rosbag REQUIRED)
+find_package(roslaunch REQUIRED)
 find_package(rostest REQUIRED)
 include_directories(SYSTEM ${rosbag_INCLUDE_DIRS})
 
@@ -34,3 +35,7 @@ foreach(name bag clock divergence master_clock reload replay requests start_up s
     CLOTH_REPLAY="$<TARGET_FILE:cloth_replay>")
   add_dependencies(ros_${name}_test cloth_node cloth_replay)
 endforeach()
+
+roslaunch_add_file_check(launch IGNORE_UNSET_ARGS)
+roslaunch_add_file_check(launch/record.launch bag:=cloth.bag)
+roslaunch_add_file_check(launch/replay.launch bag:=cloth.bag loop:=true)
