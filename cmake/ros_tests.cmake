@@ -7,6 +7,8 @@ catkin_add_gtest(test_ros
   test/ros/node_scene_test.cpp
   test/ros/pin_markers_test.cpp
   test/ros/pin_requests_test.cpp
+  test/ros/recorded_model_test.cpp
+  test/ros/recorded_topologies_test.cpp
   test/ros/refusal_log_test.cpp
   test/ros/shading_test.cpp
   test/ros/tick_clock_test.cpp
