@@ -3,6 +3,7 @@ find_package(catkin REQUIRED COMPONENTS
   geometry_msgs
   interactive_markers
   message_generation
+  rosbag_storage
   roscpp
   rosgraph_msgs
   roslib

@@ -5,7 +5,9 @@ add_library(cloth_ros STATIC
   src/ros/answering_services.cpp
   src/ros/clock_publisher.cpp
   src/ros/cloth_node.cpp
+  src/ros/cloth_replay.cpp
   src/ros/conversions.cpp
+  src/ros/end_by_signal.cpp
   src/ros/errands.cpp
   src/ros/frames.cpp
   src/ros/live_cloth.cpp
@@ -16,8 +18,12 @@ add_library(cloth_ros STATIC
   src/ros/pin_handles.cpp
   src/ros/pin_markers.cpp
   src/ros/pin_requests.cpp
+  src/ros/recorded_model.cpp
+  src/ros/recorded_topologies.cpp
   src/ros/refusal_log.cpp
+  src/ros/replayed_cloth.cpp
   src/ros/ribbon.cpp
+  src/ros/scene_display.cpp
   src/ros/shading.cpp
   src/ros/spring_marker.cpp
   src/ros/tick_clock.cpp
@@ -31,12 +37,15 @@ target_link_libraries(cloth_ros PUBLIC cloth_core ${catkin_LIBRARIES})
 add_executable(cloth_node src/ros/cloth_node_main.cpp)
 target_link_libraries(cloth_node PRIVATE cloth_ros)
 
+add_executable(cloth_replay src/ros/cloth_replay_main.cpp)
+target_link_libraries(cloth_replay PRIVATE cloth_ros)
+
 install(TARGETS cloth_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}
 )
-install(TARGETS cloth_node cloth_run parameter_page
+install(TARGETS cloth_node cloth_replay cloth_run parameter_page
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
 )
 install(DIRECTORY include/${PROJECT_NAME}/

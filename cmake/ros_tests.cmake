@@ -7,6 +7,8 @@ catkin_add_gtest(test_ros
   test/ros/node_scene_test.cpp
   test/ros/pin_markers_test.cpp
   test/ros/pin_requests_test.cpp
+  test/ros/recorded_model_test.cpp
+  test/ros/recorded_topologies_test.cpp
   test/ros/refusal_log_test.cpp
   test/ros/shading_test.cpp
   test/ros/tick_clock_test.cpp
@@ -16,6 +18,7 @@ target_link_libraries(test_ros cloth_ros ${GTEST_MAIN_LIBRARIES})
 target_include_directories(test_ros PRIVATE test)
 
 find_package(rosbag REQUIRED)
+find_package(roslaunch REQUIRED)
 find_package(rostest REQUIRED)
 include_directories(SYSTEM ${rosbag_INCLUDE_DIRS})
 
@@ -25,11 +28,16 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence master_clock pin_handles reload requests start_up streams time)
+foreach(name bag clock divergence master_clock pin_handles reload replay requests start_up streams time)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
   )
   target_link_libraries(ros_${name}_test cloth_rostest)
-  target_compile_definitions(ros_${name}_test PRIVATE CLOTH_NODE="$<TARGET_FILE:cloth_node>")
-  add_dependencies(ros_${name}_test cloth_node)
+  target_compile_definitions(ros_${name}_test PRIVATE CLOTH_NODE="$<TARGET_FILE:cloth_node>"
+    CLOTH_REPLAY="$<TARGET_FILE:cloth_replay>")
+  add_dependencies(ros_${name}_test cloth_node cloth_replay)
 endforeach()
+
+roslaunch_add_file_check(launch IGNORE_UNSET_ARGS)
+roslaunch_add_file_check(launch/record.launch bag:=cloth.bag)
+roslaunch_add_file_check(launch/replay.launch bag:=cloth.bag loop:=true)

@@ -1,4 +1,3 @@
-#include <csignal>
 #include <cstdlib>
 #include <sstream>
 
@@ -6,25 +5,15 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <unistd.h>
 
 #include "cloth_sim/scene/scene_reader.h"
 
 #include "cloth_node.h"
+#include "end_by_signal.h"
 #include "node_scene.h"
 
 namespace
 {
-
-/// roscpp ends a node on SIGINT alone, and not while it still looks for its master.
-void shut_down(int /*signal*/)
-{
-  if (!ros::isStarted())
-  {
-    _exit(EXIT_SUCCESS);
-  }
-  ros::requestShutdown();
-}
 
 void log_faults(const cloth::SceneError& error)
 {
@@ -39,8 +28,7 @@ void log_faults(const cloth::SceneError& error)
 
 int main(int argc, char** argv)
 {
-  std::signal(SIGINT, shut_down);
-  std::signal(SIGTERM, shut_down);
+  cloth::end_by_signal();
   ros::init(argc, argv, "cloth_node", ros::init_options::NoSigintHandler);
   // ROS shuts down with its last handle, and logs nothing then: this one outlives what is reported below.
   const ros::NodeHandle private_node("~");

@@ -9,6 +9,8 @@ namespace cloth
 namespace
 {
 
+using Float32Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 YAML::Node map_of(XmlRpc::XmlRpcValue& value)
 {
   YAML::Node map(YAML::NodeType::Map);
@@ -88,8 +90,12 @@ std_msgs::ColorRGBA to_colour(const Eigen::Vector3d& colour)
 void to_float32(const Vectors& rows, std::vector<float>& values)
 {
   values.resize(static_cast<size_t>(rows.size()));
-  Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(values.data(), rows.rows(), 3) =
-      rows.cast<float>();
+  Eigen::Map<Float32Rows>(values.data(), rows.rows(), 3) = rows.cast<float>();
+}
+
+void from_float32(const std::vector<float>& values, Vectors& rows)
+{
+  rows = Eigen::Map<const Float32Rows>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3).cast<double>();
 }
 
 }  // namespace cloth

@@ -31,4 +31,7 @@ std_msgs::ColorRGBA to_colour(const Eigen::Vector3d& colour);
 /// x y z of each row in turn, as float32. `values` is resized as needed.
 void to_float32(const Vectors& rows, std::vector<float>& values);
 
+/// The other way: `values` are x y z of each row in turn, and keep their value. `rows` is resized as needed.
+void from_float32(const std::vector<float>& values, Vectors& rows);
+
 }  // namespace cloth

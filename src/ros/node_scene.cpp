@@ -43,6 +43,15 @@ SceneParams scene_from_parameters(const std::string& private_namespace)
   return read_scene(describes_a_cloth(tree) ? tree : laid_over(default_scene(), tree));
 }
 
+SceneParams replay_scene_from_parameters(const std::string& private_namespace)
+{
+  XmlRpc::XmlRpcValue value;
+  ros::param::get(private_namespace, value);
+  YAML::Node tree = laid_over(YAML::Load("cloth: {width: 0.02, height: 0.02}"), to_yaml(value));
+  tree.remove("bag");
+  return read_scene(tree);
+}
+
 bool describes_a_cloth(const YAML::Node& tree)
 {
   if (!tree.IsMap())

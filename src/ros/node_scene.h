@@ -14,6 +14,10 @@ namespace cloth
 /// Throws SceneError with all faults.
 SceneParams scene_from_parameters(const std::string& private_namespace);
 
+/// What cloth_replay is told of the scene that was recorded: the same keys, none of which is needed; `bag` is no part
+/// of it. A chain is 0.02 m wide where nothing else is said. Throws SceneError with all faults.
+SceneParams replay_scene_from_parameters(const std::string& private_namespace);
+
 /// Whether `tree` has a key other than those that only the node uses.
 bool describes_a_cloth(const YAML::Node& tree);
 

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -11,6 +9,7 @@
 
 #include "child_process.h"
 #include "listener.h"
+#include "temporary_folder.h"
 
 namespace cloth
 {
@@ -18,29 +17,6 @@ namespace
 {
 
 constexpr int messages_a_topic = 20;
-
-/// A bag's file, removed at the end.
-class BagFile
-{
-public:
-  BagFile()
-  {
-    std::string pattern = "/tmp/cloth_sim_bag_XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~BagFile()
-  {
-    std::remove(path().c_str());
-    std::remove(folder_.c_str());
-  }
-  std::string path() const
-  {
-    return folder_ + "/cloth.bag";
-  }
-
-private:
-  std::string folder_;
-};
 
 /// How many messages of type Message the bag has; each must be among those that `heard` on the wire.
 template <typename Message>
@@ -72,15 +48,16 @@ TEST(Bag, GivesBackWhatWasPublished)
   ASSERT_TRUE(mesh.wait_for(1));
   ASSERT_TRUE(state.wait_for(1));
 
-  const BagFile file;
+  TemporaryFolder folder;
+  const std::string file = folder.file("cloth.bag");
   ChildProcess recorder({ "rosbag", "record", "--quiet", "--limit=" + std::to_string(messages_a_topic),
-                          "--output-name=" + file.path(), "/cloth_node/mesh", "/cloth_node/state" });
+                          "--output-name=" + file, "/cloth_node/mesh", "/cloth_node/state" });
   ASSERT_TRUE(wait_until([&] { return recorder.exit_status().has_value(); })) << recorder.output();
   ASSERT_EQ(*recorder.exit_status(), 0) << recorder.output();
   ASSERT_TRUE(mesh.wait_for_more(2));
   ASSERT_TRUE(state.wait_for_more(2));
 
-  const rosbag::Bag bag(file.path());
+  const rosbag::Bag bag(file);
   EXPECT_EQ(compare(bag, "/cloth_node/mesh", mesh), messages_a_topic);
   EXPECT_EQ(compare(bag, "/cloth_node/state", state), messages_a_topic);
 }
