@@ -6,12 +6,13 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
 #include "cloth_sim/constraints/strain_limit.h"
 #include "cloth_sim/forces/gravity.h"
 #include "cloth_sim/forces/spring_force.h"
 #include "cloth_sim/forces/springs.h"
+
+#include "grid_laplacian.h"
+#include "steihaug_gradients.h"
 
 namespace cloth
 {
@@ -264,259 +265,13 @@ private:
   std::vector<Pull> pulls_;
 };
 
-/// M^-1, M the Laplacian of the grid: u M u is the sum of k |u_i - u_j|^2 over neighbours. So |u|_M grows with the turn
-/// of springs and not with the way that all go together, which is how far the Hessian can be trusted; and conjugate
-/// gradients need as many products on a fine grid as on a coarse one.
-class Preconditioner
-{
-public:
-  Preconditioner(const ClothModel& model, const Pins& pins) : places_(static_cast<size_t>(model.nodes()), -1)
-  {
-    for (int i = 0; i < model.nodes(); ++i)
-    {
-      if (!pins.holds(i))
-      {
-        places_[static_cast<size_t>(i)] = static_cast<int>(free_.size());
-        free_.push_back(i);
-      }
-    }
-    const Eigen::Index size = static_cast<Eigen::Index>(free_.size());
-    const std::vector<Eigen::Triplet<double>> entries = entries_of(model);
-    Eigen::SparseMatrix<double> laplacian(size, size);
-    laplacian.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(laplacian);
-    lower_ = cholesky.matrixL();
-    order_.assign(cholesky.permutationP().indices().begin(), cholesky.permutationP().indices().end());
-  }
-
-  void apply(const Vectors& rows, Vectors& result) const
-  {
-    const Eigen::Index size = static_cast<Eigen::Index>(free_.size());
-    solution_.resize(4, size);
-    for (Eigen::Index place = 0; place < size; ++place)
-    {
-      const int node = free_[static_cast<size_t>(place)];
-      solution_.col(order_[static_cast<size_t>(place)]) << rows.row(node).transpose(), 0.0;
-    }
-    solve();
-    result.setZero(rows.rows(), 3);
-    for (Eigen::Index place = 0; place < size; ++place)
-    {
-      result.row(free_[static_cast<size_t>(place)]) =
-          solution_.col(order_[static_cast<size_t>(place)]).head<3>().transpose();
-    }
-  }
-
-private:
-  /// L L^T x = b for x, y and z at once, in place: the time goes into reading L.
-  void solve() const
-  {
-    using Entry = Eigen::SparseMatrix<double>::InnerIterator;
-    for (Eigen::Index j = 0; j < lower_.cols(); ++j)
-    {
-      Entry entry(lower_, j);
-      solution_.col(j) /= entry.value();
-      const Eigen::Vector4d value = solution_.col(j);
-      while (++entry)
-      {
-        solution_.col(entry.row()) -= entry.value() * value;
-      }
-    }
-    for (Eigen::Index j = lower_.cols() - 1; j >= 0; --j)
-    {
-      Entry entry(lower_, j);
-      const double diagonal = entry.value();
-      Eigen::Vector4d value = solution_.col(j);
-      while (++entry)
-      {
-        value -= entry.value() * solution_.col(entry.row());
-      }
-      solution_.col(j) = value / diagonal;
-    }
-  }
-
-  /// The lower triangle.
-  std::vector<Eigen::Triplet<double>> entries_of(const ClothModel& model) const
-  {
-    double stiffest = 0.0;
-    for (const SpringBatch& batch : model.springs)
-    {
-      stiffest = std::max(stiffest, batch.stiffness);
-    }
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int place = 0; place < static_cast<int>(free_.size()); ++place)
-    {
-      // A sheet that nothing holds would make the matrix singular.
-      entries.emplace_back(place, place, 1e-6 * stiffest);
-    }
-    for (int i = 0; i < model.nodes(); ++i)
-    {
-      if (model.col_of(i) + 1 < model.cols)
-      {
-        add(i, i + 1, stiffest, entries);
-      }
-      if (model.row_of(i) + 1 < model.rows)
-      {
-        add(i, i + model.cols, stiffest, entries);
-      }
-    }
-    return entries;
-  }
-
-  void add(int i, int j, double stiffness, std::vector<Eigen::Triplet<double>>& entries) const
-  {
-    const int one = places_[static_cast<size_t>(i)];
-    const int other = places_[static_cast<size_t>(j)];
-    for (const int place : { one, other })
-    {
-      if (place >= 0)
-      {
-        entries.emplace_back(place, place, stiffness);
-      }
-    }
-    if (one >= 0 && other >= 0)
-    {
-      entries.emplace_back(other, one, -stiffness);
-    }
-  }
-
-  std::vector<int> places_;  ///< of a node among the free ones; -1: it is held
-  std::vector<int> free_;
-  Eigen::SparseMatrix<double> lower_;  ///< the Cholesky factor L of the Laplacian, its rows in the order of `order_`
-  std::vector<int> order_;
-  mutable Eigen::Matrix4Xd solution_;  ///< x, y, z and a zero, which fills a register
-};
-
-/// Conjugate gradients for H s = b within |s|_M <= radius, from s = 0. They end where the residual is small enough, at
-/// the radius, or, on the radius too, along a direction whose curvature is not positive.
-class ConjugateGradients
-{
-public:
-  ConjugateGradients(const Potential& potential, const Preconditioner& preconditioner)
-    : potential_(potential), preconditioner_(preconditioner)
-  {
-  }
-
-  /// `reduction` is the part of b, measured by M^-1, that counts as small enough. The number of products is limited.
-  void solve(const Vectors& right_side, double radius, double reduction, int most_products)
-  {
-    step_.setZero(right_side.rows(), 3);
-    residual_ = right_side;
-    preconditioner_.apply(residual_, preconditioned_);
-    direction_ = preconditioned_;
-    squared_residual_ = inner(residual_, preconditioned_);
-    squared_direction_ = squared_residual_;
-    squared_step_ = 0.0;
-    step_direction_ = 0.0;
-    at_radius_ = false;
-    products_ = 0;
-    const double enough = squared_residual_ * reduction * reduction;
-    while (!at_radius_ && products_ < most_products && squared_residual_ > enough)
-    {
-      advance(radius);
-    }
-    modelled_change_ = -0.5 * (inner(right_side, step_) + inner(residual_, step_));
-  }
-
-  const Vectors& step() const
-  {
-    return step_;
-  }
-  /// s H s/2 - b s.
-  double modelled_change() const
-  {
-    return modelled_change_;
-  }
-  bool at_radius() const
-  {
-    return at_radius_;
-  }
-  /// The last direction d, and its curvature d H d / d M d.
-  const Vectors& direction() const
-  {
-    return direction_;
-  }
-  double curvature() const
-  {
-    return curvature_;
-  }
-  int products() const
-  {
-    return products_;
-  }
-
-private:
-  void advance(double radius)
-  {
-    potential_.hessian_product(direction_, product_);
-    ++products_;
-    const double bend = inner(direction_, product_);
-    curvature_ = bend / squared_direction_;
-    double length = squared_residual_ / bend;
-    at_radius_ = bend <= 0.0 || squared_after(length) >= radius * radius;
-    if (at_radius_)
-    {
-      length = length_to(radius);
-    }
-    step_ += length * direction_;
-    residual_ -= length * product_;
-    if (!at_radius_)
-    {
-      turn(length);
-    }
-  }
-
-  /// |s + length d|_M^2
-  double squared_after(double length) const
-  {
-    return squared_step_ + length * (2.0 * step_direction_ + length * squared_direction_);
-  }
-
-  /// The length > 0 for which |s + length d|_M is the radius.
-  double length_to(double radius) const
-  {
-    const double missing = radius * radius - squared_step_;
-    const double root = std::sqrt(step_direction_ * step_direction_ + squared_direction_ * missing);
-    return missing / (root + step_direction_);
-  }
-
-  /// The next conjugate direction, and the products of step and direction by their recurrences.
-  void turn(double length)
-  {
-    squared_step_ = squared_after(length);
-    preconditioner_.apply(residual_, preconditioned_);
-    const double squared_before = squared_residual_;
-    squared_residual_ = inner(residual_, preconditioned_);
-    const double ratio = squared_residual_ / squared_before;
-    direction_ = preconditioned_ + ratio * direction_;
-    step_direction_ = ratio * (step_direction_ + length * squared_direction_);
-    squared_direction_ = squared_residual_ + ratio * ratio * squared_direction_;
-  }
-
-  const Potential& potential_;
-  const Preconditioner& preconditioner_;
-  Vectors step_;
-  Vectors residual_;
-  Vectors preconditioned_;
-  Vectors direction_;
-  Vectors product_;
-  double squared_residual_ = 0.0;   ///< r M^-1 r
-  double squared_step_ = 0.0;       ///< s M s
-  double step_direction_ = 0.0;     ///< s M d
-  double squared_direction_ = 0.0;  ///< d M d
-  double curvature_ = 0.0;
-  double modelled_change_ = 0.0;
-  bool at_radius_ = false;
-  int products_ = 0;
-};
-
 /// The search for rest.
 class Settling
 {
 public:
   Settling(const ClothModel& model, const Pins& pins, const Eigen::Vector3d& gravity, double max_strain,
            double tolerance, const Vectors& positions)
-    : pins_(pins), tolerance_(tolerance), potential_(model, pins, gravity, max_strain), preconditioner_(model, pins)
+    : pins_(pins), tolerance_(tolerance), potential_(model, pins, gravity, max_strain), laplacian_(model, pins)
   {
     size_ = std::hypot(model.width, model.height);
     accuracy_ = max_strain > 0.0 ? std::max(first_accuracy, tolerance) : tolerance;
@@ -597,10 +352,10 @@ private:
     if (radius_ == 0.0)
     {
       Vectors steepest;
-      preconditioner_.apply(gradient, steepest);
+      laplacian_.solve(gradient, steepest);
       radius_ = std::sqrt(inner(gradient, steepest));
     }
-    ConjugateGradients gradients(potential_, preconditioner_);
+    SteihaugGradients gradients = conjugate_gradients();
     const double reduction = std::min(0.1, std::sqrt(report_.residual));
     gradients.solve(-gradient, radius_, reduction, static_cast<int>(most_products_a_node * gradient.rows()));
     report_.hessian_products += gradients.products();
@@ -612,6 +367,11 @@ private:
     }
     adapt_radius(agreement, gradients.at_radius());
     return std::isfinite(change) && longest_row(gradients.step()) < endless_step * size_;
+  }
+
+  SteihaugGradients conjugate_gradients() const
+  {
+    return { [this](const Vectors& u, Vectors& product) { potential_.hessian_product(u, product); }, laplacian_ };
   }
 
   void adapt_radius(double agreement, bool at_radius)
@@ -630,7 +390,7 @@ private:
   /// directions that a symmetric sheet has no force along.
   bool leave_saddle()
   {
-    ConjugateGradients gradients(potential_, preconditioner_);
+    SteihaugGradients gradients = conjugate_gradients();
     gradients.solve(noise(), std::numeric_limits<double>::infinity(), 1e-10, most_products_at_a_saddle);
     report_.hessian_products += gradients.products();
     if (!gradients.at_radius() || gradients.curvature() > -least_curvature)
@@ -671,7 +431,7 @@ private:
   const Pins& pins_;
   const double tolerance_;
   Potential potential_;
-  Preconditioner preconditioner_;
+  GridLaplacian laplacian_;
   double size_ = 0.0;      ///< of the sheet, m
   double radius_ = 0.0;    ///< of the trust region; 0: as long as the step of steepest descent
   double accuracy_ = 0.0;  ///< the residual that is small enough for now
