@@ -8,8 +8,9 @@ namespace cloth
 {
 
 /// Conjugate gradients for H s = b within |s|_M <= radius, from s = 0. They end where the residual is small enough, at
-/// the radius, or, on the radius too, along a direction whose curvature is not positive.
-/// (Steihaug 1983). M is the grid's Laplacian, which also preconditions.
+/// the radius, or, on the radius too, along a direction whose curvature is not positive (Steihaug, "The conjugate
+/// gradient method and trust regions in large scale optimization", 1983). M is the grid's Laplacian, which also
+/// preconditions.
 class SteihaugGradients
 {
 public:
