@@ -3,11 +3,9 @@
 
 #include <Eigen/Core>
 #include <geometry_msgs/PointStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
 #include <visualization_msgs/InteractiveMarkerUpdate.h>
@@ -16,6 +14,7 @@
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/Pin.h"
 
+#include "gripper_frame.h"
 #include "listener.h"
 
 namespace cloth
@@ -99,14 +98,7 @@ class PinHandlesTest : public testing::Test
 protected:
   static void SetUpTestSuite()
   {
-    static tf2_ros::StaticTransformBroadcaster broadcaster;
-    geometry_msgs::TransformStamped gripper;
-    gripper.header.frame_id = "world";
-    gripper.child_frame_id = "gripper";
-    gripper.transform.translation.y = 0.5;
-    gripper.transform.translation.z = 1.0;
-    gripper.transform.rotation.z = gripper.transform.rotation.w = std::sqrt(0.5);
-    broadcaster.sendTransform(gripper);
+    broadcast_gripper();
   }
 
   void SetUp() override

@@ -4,16 +4,15 @@
 #include <limits>
 
 #include <Eigen/Core>
-#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Log.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/Pin.h"
 
+#include "gripper_frame.h"
 #include "listener.h"
 
 namespace cloth
@@ -70,14 +69,7 @@ class Requests : public testing::Test
 protected:
   static void SetUpTestSuite()
   {
-    static tf2_ros::StaticTransformBroadcaster broadcaster;
-    geometry_msgs::TransformStamped gripper;
-    gripper.header.frame_id = "world";
-    gripper.child_frame_id = "gripper";
-    gripper.transform.translation.y = 0.5;
-    gripper.transform.translation.z = 1.0;
-    gripper.transform.rotation.z = gripper.transform.rotation.w = std::sqrt(0.5);
-    broadcaster.sendTransform(gripper);
+    broadcast_gripper();
   }
 
   void SetUp() override
