@@ -60,7 +60,7 @@ void SpringJacobian::take_directions(const Vectors& positions, double stiffness_
     for (int s = 0; s < n; ++s)
     {
       const Vector l = lengths[s];
-      const double inverse = inverse_length(l);
+      const double inverse = inverse_length<false>(l);
       across[s] = stiffness_factor * batch.stiffness * (1.0 - batch.rest_length * inverse);
       w_x[s] = inverse * l.x;
       w_y[s] = inverse * l.y;

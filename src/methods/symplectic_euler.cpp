@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "node_loops.h"
 #include "rows.h"
 
 namespace cloth
@@ -15,8 +16,10 @@ public:
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
     dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
-    state.velocities += h * accelerations_;
-    state.positions += h * state.velocities;
+    dynamics.for_each_band([&](NodeRange nodes) {
+      add_scaled(nodes, h, accelerations_, state.velocities);
+      add_scaled(nodes, h, state.velocities, state.positions);
+    });
     state.time += h;
     dynamics.pins().impose(state.time, state.positions, state.velocities);
     StepReport report;

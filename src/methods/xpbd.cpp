@@ -52,7 +52,7 @@ public:
 private:
   void predict(const Dynamics& dynamics, double h, ClothState& state)
   {
-    dynamics.external_forces(state.time, accelerations_);
+    dynamics.external_forces_on_all(state.time, accelerations_);
     dynamics.accelerations_of(accelerations_, accelerations_);
     state.velocities += h * accelerations_;
     dynamics.air().damp_implicitly(dynamics.model(), state.positions, h, state.velocities);
