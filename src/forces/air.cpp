@@ -122,36 +122,48 @@ void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, dou
   add_along_normals(all_nodes(model), velocities);
 }
 
-// Likewise: without C_vi the equation gives a', and along n it is missing C_vi n . (u - v - h a') over m + h C_dis +
-// h C_vi.
-void Air::accelerate_implicitly(const ClothModel& model, const Vectors& positions, const Vectors& velocities, double h,
-                                NodeRange nodes, Vectors& forces) const
+// Likewise: without C_vi the equation gives a, with which the air still has C_vi n . (u - v - h a) to add along n, over
+// m + h C_dis + h C_vi.
+void Air::accelerate_implicitly(const ClothModel& model, const Vectors& positions, double h, NodeRange nodes,
+                                Vectors& forces, Vectors& velocities) const
 {
   const bool coupled = is_coupled(model);
   if (coupled)
   {
     node_normals(model, positions, nodes, normals_);
   }
-  in_widest_vectors([this, &model, &velocities, h, nodes, &forces, coupled](auto) {
+  in_widest_vectors([this, &model, h, nodes, &forces, &velocities, coupled](auto) {
     const double damping = properties_.viscous_damping;
     const double coupling = properties_.wind_coupling;
     const Eigen::Vector3d wind = properties_.wind;
     const double* const masses = model.masses.data();
     const double* const areas = model.areas.data();
-    const double* const v_x = velocities.col(0).data();
-    const double* const v_y = velocities.col(1).data();
-    const double* const v_z = velocities.col(2).data();
-    double* const x = forces.col(0).data();
-    double* const y = forces.col(1).data();
-    double* const z = forces.col(2).data();
+    double* const v_x = velocities.col(0).data();
+    double* const v_y = velocities.col(1).data();
+    double* const v_z = velocities.col(2).data();
+    double* const a_x = forces.col(0).data();
+    double* const a_y = forces.col(1).data();
+    double* const a_z = forces.col(2).data();
+    const auto accelerate = [=](int i, double x, double y, double z) {
+      a_x[i] = x;
+      a_y[i] = y;
+      a_z[i] = z;
+    };
+    const auto add_to_velocity = [=](int i, double x, double y, double z) {
+      v_x[i] += h * x;
+      v_y[i] += h * y;
+      v_z[i] += h * z;
+    };
 #pragma GCC ivdep
     for (int i = nodes.begin; i < nodes.end; ++i)
     {
       const double c = damping * areas[i];
       const double inverse = 1.0 / (masses[i] + h * c);
-      x[i] = inverse * (x[i] - c * v_x[i]);
-      y[i] = inverse * (y[i] - c * v_y[i]);
-      z[i] = inverse * (z[i] - c * v_z[i]);
+      const double x = inverse * (a_x[i] - c * v_x[i]);
+      const double y = inverse * (a_y[i] - c * v_y[i]);
+      const double z = inverse * (a_z[i] - c * v_z[i]);
+      accelerate(i, x, y, z);
+      add_to_velocity(i, x, y, z);
     }
     if (!coupled)
     {
@@ -164,12 +176,10 @@ void Air::accelerate_implicitly(const ClothModel& model, const Vectors& position
     for (int i = nodes.begin; i < nodes.end; ++i)
     {
       const double c = coupling * areas[i];
-      const double speed = n_x[i] * (wind[0] - v_x[i] - h * x[i]) + n_y[i] * (wind[1] - v_y[i] - h * y[i]) +
-                           n_z[i] * (wind[2] - v_z[i] - h * z[i]);
+      const double speed = n_x[i] * (wind[0] - v_x[i]) + n_y[i] * (wind[1] - v_y[i]) + n_z[i] * (wind[2] - v_z[i]);
       const double missing = c * speed / (masses[i] + h * (damping * areas[i] + c));
-      x[i] += missing * n_x[i];
-      y[i] += missing * n_y[i];
-      z[i] += missing * n_z[i];
+      accelerate(i, a_x[i] + missing * n_x[i], a_y[i] + missing * n_y[i], a_z[i] + missing * n_z[i]);
+      add_to_velocity(i, missing * n_x[i], missing * n_y[i], missing * n_z[i]);
     }
   });
 }

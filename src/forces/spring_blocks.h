@@ -14,10 +14,10 @@ namespace cloth
 
 /// Rows are done in blocks: what is computed for a block stays in the nearest cache, and the loops over it, which
 /// read and write different arrays, vectorise.
-inline constexpr int block_size = 128;
+inline constexpr int block_size = 256;
 
 /// One vector for each spring of a block.
-struct Block
+struct alignas(64) Block
 {
   double x[block_size];
   double y[block_size];

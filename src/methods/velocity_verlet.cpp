@@ -2,7 +2,6 @@
 #include <limits>
 
 #include "cloth_sim/model/wide_vectors.h"
-#include "node_loops.h"
 #include "rows.h"
 
 namespace cloth
@@ -35,9 +34,8 @@ public:
     dynamics.pins().impose(end, state.positions, predicted_);
     dynamics.for_each_band([&](NodeRange band) {
       dynamics.forces_without_air(end, state.positions, predicted_, band, accelerations_, [&](NodeRange nodes) {
-        dynamics.air().accelerate_implicitly(dynamics.model(), state.positions, state.velocities, 0.5 * h, nodes,
-                                             accelerations_);
-        add_scaled(nodes, 0.5 * h, accelerations_, state.velocities);
+        dynamics.air().accelerate_implicitly(dynamics.model(), state.positions, 0.5 * h, nodes, accelerations_,
+                                             state.velocities);
       });
     });
     dynamics.pins().clear_held(accelerations_);

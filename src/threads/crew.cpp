@@ -53,6 +53,10 @@ bool look_for(Condition&& is_met)
 
 struct Crew::Members
 {
+  explicit Members(int threads) : taken(static_cast<size_t>(threads))
+  {
+  }
+
   /// Not of the Crew, so that it is run where the machine has too few threads for its constructor.
   ~Members()
   {
@@ -66,9 +70,10 @@ struct Crew::Members
 
   void stand_by(int thread)
   {
-    for (std::uint64_t done = 0;; ++done)
+    std::uint64_t seen = 0;
+    for (;;)
     {
-      const auto is_called = [&] { return calls.load(std::memory_order_acquire) != done; };
+      const auto is_called = [&] { return calls.load(std::memory_order_acquire) != seen; };
       if (!look_for(is_called))
       {
         std::unique_lock<std::mutex> lock(mutex);
@@ -76,12 +81,28 @@ struct Crew::Members
         called.wait(lock, is_called);
         --sleepers;
       }
+      seen = calls.load(std::memory_order_acquire);
       if (has_ended)
       {
         return;
       }
-      task.call(task.work, thread);
-      busy.fetch_sub(1, std::memory_order_release);
+      work_off(thread, seen);
+    }
+  }
+
+  /// Does what is left of a call, one's own part first. Who is too late finds nothing.
+  void work_off(int thread, std::uint64_t call)
+  {
+    const int parts = static_cast<int>(taken.size());
+    for (int p = 0; p < parts; ++p)
+    {
+      const int part = (thread + p) % parts;
+      std::uint64_t before = call - 1;
+      if (taken[static_cast<size_t>(part)].compare_exchange_strong(before, call, std::memory_order_acq_rel))
+      {
+        task.call(task.work, part);
+        left.fetch_sub(1, std::memory_order_release);
+      }
     }
   }
 
@@ -104,10 +125,11 @@ struct Crew::Members
   std::vector<std::thread> others;
   // In lines of the cache of their own: one is looked at while the other is written.
   alignas(64) std::atomic<std::uint64_t> calls{ 0 };
-  alignas(64) std::atomic<int> busy{ 0 };
+  alignas(64) std::atomic<int> left{ 0 };         ///< parts of this call that are not done yet
+  std::vector<std::atomic<std::uint64_t>> taken;  ///< of each part, the call for which it was taken last
 };
 
-Crew::Crew(int threads) : members_(std::make_unique<Members>())
+Crew::Crew(int threads) : members_(std::make_unique<Members>(std::max(1, threads)))
 {
   for (int thread = 1; thread < threads; ++thread)
   {
@@ -119,17 +141,17 @@ Crew::~Crew() = default;
 
 int Crew::threads() const
 {
-  return 1 + static_cast<int>(members_->others.size());
+  return static_cast<int>(members_->taken.size());
 }
 
 void Crew::run_all(const Task& task)
 {
   members_->task = task;
-  members_->busy.store(static_cast<int>(members_->others.size()), std::memory_order_relaxed);
+  members_->left.store(threads(), std::memory_order_relaxed);
   members_->call();
-  task.call(task.work, 0);
-  // The others' parts are as long as the caller's; one that was put aside by the system meanwhile needs a processor.
-  const auto are_done = [&] { return members_->busy.load(std::memory_order_acquire) == 0; };
+  members_->work_off(0, members_->calls.load(std::memory_order_relaxed));
+  // One that was put aside by the system in the middle of its part needs a processor.
+  const auto are_done = [&] { return members_->left.load(std::memory_order_acquire) == 0; };
   while (!look_for(are_done))
   {
     std::this_thread::yield();

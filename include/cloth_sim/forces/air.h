@@ -46,12 +46,12 @@ public:
   void damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const;
 
   /// Turns the other forces on the nodes of some whole rows, in N, into their accelerations over a time h (s), with the
-  /// air at its end, positions held. There must be room for the model. In closed form, v being the velocity at the
-  /// beginning:
+  /// air at its end, positions held, and adds h a to the velocities. There must be room for the model. In closed form,
+  /// v being the velocity at the beginning:
   ///
   ///   (m + h C_dis) a + h C_vi (n . a) n = f - C_dis v + C_vi (n . (u - v)) n
-  void accelerate_implicitly(const ClothModel& model, const Vectors& positions, const Vectors& velocities, double h,
-                             NodeRange nodes, Vectors& forces) const;
+  void accelerate_implicitly(const ClothModel& model, const Vectors& positions, double h, NodeRange nodes,
+                             Vectors& forces, Vectors& velocities) const;
 
   /// Makes room for what is worked out for each node.
   void make_room_for(const ClothModel& model) const;

@@ -6,7 +6,8 @@ namespace cloth
 {
 
 /// Threads that wait for work and do it together, for parts of a step: a call of `run` costs about a microsecond while
-/// calls follow one another closely. Those who wait look for work a while, then sleep until they are called.
+/// calls follow one another closely. Those who wait look for work a while, then sleep until they are called. Nobody is
+/// waited for who has not begun: on a busy machine the caller does the others' parts himself.
 class Crew
 {
 public:
@@ -23,7 +24,7 @@ public:
   template <typename Work>
   void run(const Work& work)
   {
-    run_all({ &work, [](const void* given, int thread) { (*static_cast<const Work*>(given))(thread); } });
+    run_all({ &work, [](const void* given, int part) { (*static_cast<const Work*>(given))(part); } });
   }
 
 private:
@@ -31,7 +32,7 @@ private:
   struct Task
   {
     const void* work = nullptr;
-    void (*call)(const void* work, int thread) = nullptr;
+    void (*call)(const void* work, int part) = nullptr;
   };
 
   void run_all(const Task& task);
