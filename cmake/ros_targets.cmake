@@ -15,6 +15,7 @@ add_library(cloth_ros STATIC
   src/ros/messages.cpp
   src/ros/node_clock.cpp
   src/ros/node_scene.cpp
+  src/ros/pin_attachments.cpp
   src/ros/pin_handles.cpp
   src/ros/pin_markers.cpp
   src/ros/pin_requests.cpp

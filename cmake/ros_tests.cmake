@@ -5,6 +5,7 @@ catkin_add_gtest(test_ros
   test/ros/mesh_marker_test.cpp
   test/ros/messages_test.cpp
   test/ros/node_scene_test.cpp
+  test/ros/pin_attachments_test.cpp
   test/ros/pin_markers_test.cpp
   test/ros/pin_requests_test.cpp
   test/ros/recorded_model_test.cpp
@@ -28,7 +29,7 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence master_clock pin_handles reload replay requests start_up streams time)
+foreach(name bag clock divergence master_clock pin_handles reload replay requests start_up streams tf_pins time)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
   )

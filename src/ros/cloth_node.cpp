@@ -68,6 +68,7 @@ ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& sce
   , clock_(scene.node)
   , statistics_(WallClock::now())
   , refusals_([](const std::string& cause) { ROS_WARN("refused: %s", cause.c_str()); })
+  , pin_warnings_([](const std::string& warning) { ROS_WARN("%s", warning.c_str()); })
   , transform_listener_(transforms_)
   , frames_(scene.frame_id, transforms_)
   , topology_message_(topology_of(*cloth_, 1))
@@ -127,17 +128,20 @@ void ClothNode::take_point(const geometry_msgs::PointStamped& point)
 
 void ClothNode::leave_pin(const std::string& topic, const cloth_sim::Pin& request)
 {
-  leave(topic, [this, request](Simulation& simulation) {
-    apply_pin(request, frames_, clock_.simulated_period(), simulation);
-  });
+  leave(topic, [this, request](Simulation&) { apply(request); });
+}
+
+void ClothNode::apply(const cloth_sim::Pin& request)
+{
+  apply_pin(request, frames_, clock_.simulated_period(), cloth_->simulation, cloth_->attachments);
 }
 
 void ClothNode::take_feedback(const PinHandles::Feedback::ConstPtr& feedback)
 {
-  leave("~pin_handles", [this, feedback](Simulation& simulation) {
+  leave("~pin_handles", [this, feedback](Simulation&) {
     if (const auto request = handles_.take(*feedback))
     {
-      apply_pin(*request, frames_, clock_.simulated_period(), simulation);
+      apply(*request);
     }
   });
 }
@@ -260,6 +264,7 @@ void ClothNode::run_tick(const Tick& tick)
 {
   const auto start = WallClock::now();
   apply_requests();
+  carry_pins(tick.simulated_time);
   advance(tick.simulated_time);
   clock_.show(tick);
   publish_cloth(tick.stamp);
@@ -283,6 +288,12 @@ bool ClothNode::apply_requests()
     request(cloth_->simulation);
   }
   return !requests.empty();
+}
+
+void ClothNode::carry_pins(double simulated_time)
+{
+  cloth_->attachments.carry(frames_, clock_.now(), simulated_time, cloth_->simulation,
+                            [this](const std::string& warning) { pin_warnings_.report(warning); });
 }
 
 void ClothNode::advance(double simulated_time)

@@ -52,6 +52,7 @@ private:
   void take_pin(const cloth_sim::Pin& request);
   void leave_pin(const std::string& topic, const cloth_sim::Pin& request);
   void take_point(const geometry_msgs::PointStamped& point);
+  void apply(const cloth_sim::Pin& request);
   void take_feedback(const PinHandles::Feedback::ConstPtr& feedback);
   /// Leaves the request for the next tick; a refusal, now or then, is reported as one of `topic`.
   void leave(const std::string& topic, const RequestQueue::Request& request);
@@ -66,6 +67,7 @@ private:
   void run_tick(const Tick& tick);
   void idle();
   bool apply_requests();
+  void carry_pins(double simulated_time);
   void advance(double simulated_time);
   void start_over();
   void publish_cloth(const ros::Time& stamp);
@@ -80,6 +82,7 @@ private:
   Errands errands_;
   RequestQueue requests_;
   RefusalLog refusals_;
+  RefusalLog pin_warnings_;
   bool divergence_reported_ = false;
 
   tf2::BufferCore transforms_;

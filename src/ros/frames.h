@@ -1,10 +1,12 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <Eigen/Geometry>
 
+#include <ros/time.h>
 #include <tf2/buffer_core.h>
 
 namespace cloth
@@ -21,6 +23,16 @@ public:
   std::string frame_id() const;
   /// The cloth's frame from now on.
   void set_frame_id(const std::string& frame_id);
+
+  /// Takes points (m) of another frame into the cloth's.
+  struct Latest
+  {
+    Eigen::Isometry3d transform;
+    ros::Time stamp;  ///< zero: it holds at any time
+  };
+
+  /// From the frame `source`, or none where tf does not know the way; an empty name is the cloth's frame.
+  std::optional<Latest> latest(const std::string& source) const;
 
   /// Takes points (m) of the frame `source` into the cloth's frame, as the two stand now; an empty name is the cloth's
   /// frame. Throws RefusedRequest where tf does not know the way.

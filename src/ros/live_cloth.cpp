@@ -11,12 +11,14 @@ LiveCloth::LiveCloth(const SceneParams& scene)
   , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
   , springs(simulation.model(), plan.scene.frame_id)
   , pins(simulation.model(), plan.scene.frame_id)
+  , attachments(plan.scene.node.tf_pins)
 {
 }
 
 void LiveCloth::restart()
 {
   simulation = build_simulation(plan);
+  attachments.clear();
 }
 
 }  // namespace cloth

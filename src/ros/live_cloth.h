@@ -4,6 +4,7 @@
 #include "cloth_sim/simulation/simulation.h"
 
 #include "mesh_marker.h"
+#include "pin_attachments.h"
 #include "pin_markers.h"
 #include "spring_marker.h"
 
@@ -26,6 +27,7 @@ struct LiveCloth
   MeshMarker mesh;
   SpringMarker springs;
   PinMarkers pins;
+  PinAttachments attachments;
 };
 
 }  // namespace cloth

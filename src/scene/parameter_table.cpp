@@ -170,6 +170,14 @@ std::vector<Parameter<SceneParams>> make_table()
                            CLOTH_MEMBER(node.clock_mode))),
     for_node(Scene::choice("start_paused", { "false", "true" }, "whether time stands still at the start",
                            CLOTH_MEMBER(node.start_paused))),
+    for_node(Scene::number("tf_pins.top_speed", "m/s", positive,
+                           "the fastest, in simulated time, that a pin follows the tf frame that carries it; where the "
+                           "frame jumps it catches up at this speed",
+                           CLOTH_MEMBER(node.tf_pins.top_speed))),
+    for_node(Scene::number("tf_pins.max_age", "s", not_negative,
+                           "a pin holds its place while the latest transform of its frame is older, or farther in the "
+                           "future; 0: of any age will do",
+                           CLOTH_MEMBER(node.tf_pins.max_age))),
     for_node(Scene::choice("display.colouring", { "fabric", "strain" },
                            "colour of the mesh: the fabric's, or the strain of the springs at each node",
                            CLOTH_MEMBER(node.colouring))),

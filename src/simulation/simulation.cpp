@@ -221,8 +221,22 @@ void Simulation::release_all()
 bool Simulation::carry(const std::string& name, const Eigen::Vector3d& target, double duration)
 {
   const bool carried = dynamics_.pins().carry(name, target, state_.time, state_.time + duration);
-  guard_.allow_pin_motion(dynamics_);
+  pins_sent_elsewhere();
   return carried;
+}
+
+bool Simulation::carry(const std::string& name, const Eigen::Isometry3d& placement, const Eigen::Vector3d& pivot,
+                       double end)
+{
+  const bool carried = dynamics_.pins().carry(name, placement, pivot, state_.time, end);
+  pins_sent_elsewhere();
+  return carried;
+}
+
+void Simulation::pins_sent_elsewhere()
+{
+  method_->restart();
+  guard_.allow_pin_motion(dynamics_);
 }
 
 }  // namespace cloth

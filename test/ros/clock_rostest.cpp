@@ -1,11 +1,14 @@
+#include <cmath>
 #include <csignal>
 
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
+#include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/Marker.h>
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothStats.h"
+#include "cloth_sim/Pin.h"
 
 #include "child_process.h"
 #include "listener.h"
@@ -167,6 +170,37 @@ TEST_F(SimulatedTime, TheClothGoesOnWhenTheClockJumpsBackwards)
   ASSERT_TRUE(drive_for_states(10));
   expect_ticks_of_equal_length();
   EXPECT_LT(state_.last().header.stamp, ros::Time(60.0));
+}
+
+TEST_F(SimulatedTime, APinGoesOnAfterItsFrameWhenTheClockJumpsBackwards)
+{
+  tf2_ros::TransformBroadcaster broadcaster;
+  ros::Publisher pins = node_.advertise<cloth_sim::Pin>("/cloth_node/pin", 10, true);
+  cloth_sim::Pin pin;
+  pin.action = cloth_sim::Pin::PIN;
+  pin.name = "left";
+  pin.attach_frame = "gripper";
+  pins.publish(pin);
+  const auto drive_to = [&](double y) {
+    state_.forget();
+    return drive_until([&] {
+      geometry_msgs::TransformStamped frame;
+      frame.header.frame_id = "world";
+      frame.header.stamp = now_;
+      frame.child_frame_id = "gripper";
+      frame.transform.translation.x = -0.5;
+      frame.transform.translation.y = y;
+      frame.transform.translation.z = 1.5;
+      frame.transform.rotation.w = 1.0;
+      broadcaster.sendTransform(frame);
+      return !state_.all().empty() && std::abs(state_.last().positions[1] - y) < 1e-6;
+    });
+  };
+  EXPECT_TRUE(drive_to(0.2));
+  EXPECT_TRUE(drive_to(0.3));
+  show_time(ros::Time(20.0));
+  EXPECT_TRUE(drive_to(0.1));
+  EXPECT_LT(state_.last().header.stamp, ros::Time(40.0));
 }
 
 TEST_F(SimulatedTime, ALeapForwardIsDroppedAndCounted)

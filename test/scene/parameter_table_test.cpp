@@ -221,14 +221,15 @@ std::vector<Edge> edges<SceneParams>()
     { "rate", { "0", "-1", "1000.001" }, { "1000", "0.1" } },
     { "display.fabric_colour", { "[0, 0, 1.01]", "[-0.01, 0, 0]" }, { "[0, 1, 0.5]" } },
   };
-  for (const char* const positive : { "cloth.width", "cloth.height", "cloth.mass", "solver.tolerance" })
+  for (const char* const positive :
+       { "cloth.width", "cloth.height", "cloth.mass", "solver.tolerance", "tf_pins.top_speed" })
   {
     list.push_back({ positive, zero_or_below, { "1.0e-300", "1" } });
   }
   for (const char* const not_negative :
        { "springs.structural.stiffness", "springs.structural.damping", "springs.shear.stiffness",
          "springs.shear.damping", "springs.flex.stiffness", "springs.flex.damping", "strain_limit.max_strain",
-         "air.viscous_damping", "air.wind_coupling", "real_time_factor" })
+         "air.viscous_damping", "air.wind_coupling", "real_time_factor", "tf_pins.max_age" })
   {
     list.push_back({ not_negative, below_zero, { "0", "1.0e-300", "1.0e6" } });
   }

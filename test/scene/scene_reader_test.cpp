@@ -52,6 +52,7 @@ rate: 30
 real_time_factor: 1.0
 clock_mode: follow
 start_paused: false
+tf_pins: {top_speed: 5.0, max_age: 1.0}
 )";
 
 int count_leaves(const YAML::Node& node)
@@ -128,6 +129,7 @@ rate: 7.1
 real_time_factor: 7.2
 clock_mode: follow
 start_paused: false
+tf_pins: {top_speed: 7.3, max_age: 7.4}
 display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
 )");
   using Eigen::Vector3d;
@@ -163,6 +165,8 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.solver.compliance, 0.3);
   EXPECT_EQ(scene.node.rate, 7.1);
   EXPECT_EQ(scene.node.real_time_factor, 7.2);
+  EXPECT_EQ(scene.node.tf_pins.top_speed, 7.3);
+  EXPECT_EQ(scene.node.tf_pins.max_age, 7.4);
   EXPECT_EQ(scene.node.colouring, "strain");
   EXPECT_EQ(scene.node.fabric_colour, Vector3d(0.7, 0.8, 0.9));
   ASSERT_EQ(scene.pins.size(), 1u);

@@ -196,6 +196,44 @@ TEST(Simulation, CarriesAPinWithinTheTimeGiven)
   EXPECT_TRUE(simulation.state().positions.row(0).isApprox(Eigen::RowVector3d(-0.3, 0.2, 1.6), 1e-12));
 }
 
+TEST(Simulation, TurnsAPinAsARigidBodyUpToAMomentOfEveryMethod)
+{
+  for (const MethodRow& row : methods())
+  {
+    SCOPED_TRACE(row.name);
+    SceneParams scene = small_hanging_sheet();
+    scene.solver.method = row.name;
+    scene.pins = { { "edge", "top_edge", {}, {} } };
+    Simulation simulation = simulation_of(scene);
+    const Vectors held = simulation.pins().find("edge")->held;
+    constexpr double tick = 1.0 / 30.0;
+    Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
+    placement.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()));
+    for (int k = 1; k <= 3; ++k)
+    {
+      const double end = k * tick;
+      placement.pretranslate(Eigen::Vector3d(0.0, 0.01, 0.02));
+      ASSERT_TRUE(simulation.carry("edge", placement, Eigen::Vector3d::Zero(), end));
+      ASSERT_TRUE(simulation.advance_to(end)) << simulation.divergence_report();
+      const Eigen::RowVector3d turning = Eigen::RowVector3d(0.0, 0.0, k == 1 ? 0.1 / tick : 0.0);
+      const Eigen::RowVector3d rising = Eigen::RowVector3d(0.0, 0.01, 0.02) / tick;
+      for (int i = 0; i < held.rows(); ++i)
+      {
+        const Eigen::RowVector3d arm = (placement.linear() * held.row(i).transpose()).transpose();
+        const Eigen::RowVector3d place = arm + placement.translation().transpose();
+        EXPECT_LT((simulation.state().positions.row(i) - place).norm(), 1e-13) << "node " << i << ", tick " << k;
+        EXPECT_LT((simulation.state().velocities.row(i) - turning.cross(arm) - rising).norm(), 1e-11)
+            << "node " << i << ", tick " << k;
+      }
+    }
+    const Eigen::RowVector3d let_go = simulation.state().velocities.row(3);
+    simulation.release("edge");
+    EXPECT_EQ(simulation.state().velocities.row(3), let_go);
+  }
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  EXPECT_FALSE(simulation.carry("nobody", Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0.1));
+}
+
 TEST(Simulation, WindSetOnTheWayBlowsFromThenOn)
 {
   Simulation simulation = simulation_of(small_hanging_sheet());

@@ -112,6 +112,9 @@ public:
   void release_all();
   /// Carries the middle of the named pin's nodes to `target` (m) within `duration` (s). False: no pin has this name.
   bool carry(const std::string& name, const Eigen::Vector3d& target, double duration);
+  /// Carries the named pin, until the time `end` (s), to where `placement` takes its nodes from where they were held;
+  /// `pivot` (m, on the body as it was held) goes in a straight line. False: no pin has this name.
+  bool carry(const std::string& name, const Eigen::Isometry3d& placement, const Eigen::Vector3d& pivot, double end);
 
 private:
   static constexpr int steps_between_checks = 64;
@@ -122,6 +125,7 @@ private:
   void take_adaptive_steps(double time, double longest);
   void keep_or_restore();
   void changed_from_outside();
+  void pins_sent_elsewhere();
 
   Dynamics dynamics_;
   StrainLimit strain_limit_;
