@@ -74,6 +74,7 @@ ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& sce
   , topology_message_(topology_of(*cloth_, 1))
   , handles_(private_node_.getNamespace() + "/pin_handles",
              [this](const PinHandles::Feedback::ConstPtr& feedback) { take_feedback(feedback); })
+  , wrenches_(private_node_)
 {
   log_plan(*cloth_);
   advertise();
@@ -223,6 +224,7 @@ Answer ClothNode::replace_cloth(std::unique_ptr<LiveCloth> next)
   }
   handles_.clear();
   cloth_ = std::move(next);
+  powerless_wind_reported_ = false;
   frames_.set_frame_id(cloth_->plan.scene.frame_id);
   if (!same_topology(topology_of(*cloth_, topology_message_.version), topology_message_))
   {
@@ -265,9 +267,14 @@ void ClothNode::run_tick(const Tick& tick)
   const auto start = WallClock::now();
   apply_requests();
   carry_pins(tick.simulated_time);
+  const bool measures = prepare_wrenches();
   advance(tick.simulated_time);
   clock_.show(tick);
   publish_cloth(tick.stamp);
+  if (measures && !cloth_->simulation.divergence())
+  {
+    wrenches_.publish(cloth_->simulation, cloth_->plan.scene.frame_id, tick.stamp);
+  }
   statistics_.add(WallClock::now() - start);
 }
 
@@ -287,13 +294,52 @@ bool ClothNode::apply_requests()
   {
     request(cloth_->simulation);
   }
-  return !requests.empty();
+  return apply_wind() || !requests.empty();
+}
+
+bool ClothNode::apply_wind()
+{
+  if (const auto wind = requests_.take_wind())
+  {
+    warn_where_wind_has_no_effect();
+    cloth_->simulation.set_wind(*wind);
+    cloth_->wind_time_out.restart(clock_.now());
+    return true;
+  }
+  if (cloth_->wind_time_out.is_over(clock_.now()))
+  {
+    ROS_WARN("no message on ~wind for more than wind_timeout, %s s: the scene's wind blows again",
+             format_number(cloth_->plan.scene.node.wind_timeout).c_str());
+    cloth_->simulation.set_wind(cloth_->plan.scene.air.wind);
+    return true;
+  }
+  return false;
+}
+
+void ClothNode::warn_where_wind_has_no_effect()
+{
+  const Simulation& simulation = cloth_->simulation;
+  if (powerless_wind_reported_ || simulation.dynamics().air().is_coupled(simulation.model()))
+  {
+    return;
+  }
+  powerless_wind_reported_ = true;
+  ROS_WARN("~wind has no effect: %s",
+           simulation.model().is_chain() ? "a chain has no normals, along which wind acts" : "air.wind_coupling is 0");
 }
 
 void ClothNode::carry_pins(double simulated_time)
 {
   cloth_->attachments.carry(frames_, clock_.now(), simulated_time, cloth_->simulation,
                             [this](const std::string& warning) { pin_warnings_.report(warning); });
+}
+
+bool ClothNode::prepare_wrenches()
+{
+  wrenches_.offer(cloth_->simulation.pins().all());
+  const bool measures = wrenches_.is_listened_to();
+  cloth_->simulation.measure_reactions(measures);
+  return measures;
 }
 
 void ClothNode::advance(double simulated_time)

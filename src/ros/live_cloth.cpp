@@ -12,6 +12,7 @@ LiveCloth::LiveCloth(const SceneParams& scene)
   , springs(simulation.model(), plan.scene.frame_id)
   , pins(simulation.model(), plan.scene.frame_id)
   , attachments(plan.scene.node.tf_pins)
+  , wind_time_out(plan.scene.node.wind_timeout)
 {
 }
 
@@ -19,6 +20,7 @@ void LiveCloth::restart()
 {
   simulation = build_simulation(plan);
   attachments.clear();
+  wind_time_out = WindTimeOut(plan.scene.node.wind_timeout);
 }
 
 }  // namespace cloth

@@ -7,6 +7,7 @@
 #include "pin_attachments.h"
 #include "pin_markers.h"
 #include "spring_marker.h"
+#include "wind_time_out.h"
 
 namespace cloth
 {
@@ -28,6 +29,7 @@ struct LiveCloth
   SpringMarker springs;
   PinMarkers pins;
   PinAttachments attachments;
+  WindTimeOut wind_time_out;
 };
 
 }  // namespace cloth

@@ -64,8 +64,9 @@ double pin_motion_energy(const Dynamics& dynamics)
 /// The most that the wind can do in a second: C (u - v) . v is largest at v = u/2.
 double wind_power(const Dynamics& dynamics)
 {
-  const AirProperties& air = dynamics.air().properties();
-  return 0.25 * air.wind_coupling * dynamics.model().areas.sum() * air.wind.squaredNorm();
+  const double top_speed = dynamics.air().top_speed();
+  const double coupling = dynamics.air().properties().wind_coupling;
+  return 0.25 * coupling * dynamics.model().areas.sum() * top_speed * top_speed;
 }
 
 int first_not_finite(const ClothState& state)

@@ -53,11 +53,13 @@ Simulation::Simulation(SimulationSetup setup)
 void Simulation::step(double h)
 {
   const double begin = state_.time;
+  method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
   const StepReport report = method_->step(dynamics_, h, state_);
   last_step_ = state_.time - begin;
   if (strain_limit_.active())
   {
-    const StrainLimit::Report limit_report = strain_limit_.apply(model(), pins(), last_step_, state_);
+    const StrainLimit::Report limit_report =
+        strain_limit_.apply(model(), pins(), last_step_, state_, measures_reactions_ ? &impulses_ : nullptr);
     if (limit_report.moved)
     {
       method_->restart();
@@ -189,6 +191,37 @@ std::string Simulation::divergence_report() const
   }
   text << " or softer springs";
   return text.str();
+}
+
+void Simulation::measure_reactions(bool measure)
+{
+  measures_reactions_ = measure;
+  if (measure)
+  {
+    measured_since_ = state_.time;
+    velocities_before_ = state_.velocities;
+    impulses_.setZero(model().nodes(), 3);
+  }
+}
+
+Wrench Simulation::reaction_on(const Pin& pin) const
+{
+  Wrench wrench;
+  const double duration = state_.time - measured_since_;
+  if (!measures_reactions_ || duration <= 0.0)
+  {
+    return wrench;
+  }
+  const Eigen::RowVector3d middle = state_.positions(pin.nodes, Eigen::all).colwise().mean();
+  for (const int node : pin.nodes)
+  {
+    const Eigen::RowVector3d change = state_.velocities.row(node) - velocities_before_.row(node);
+    const Eigen::Vector3d force = (impulses_.row(node) - model().masses[node] * change).transpose() / duration;
+    const Eigen::Vector3d arm = (state_.positions.row(node) - middle).transpose();
+    wrench.force += force;
+    wrench.torque += arm.cross(force);
+  }
+  return wrench;
 }
 
 void Simulation::set_wind(const Eigen::Vector3d& wind)

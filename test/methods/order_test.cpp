@@ -50,7 +50,7 @@ public:
     const Vectors v = velocities_at(time);
     Vectors acting = Vectors::Zero(model().nodes(), 3);
     add_spring_forces(model(), x, v, acting);
-    air().add_forces(model(), x, v, acting);
+    air().add_forces(model(), time, x, v, acting);
     const Vectors accelerations = amplitudes_ * (-turns() * turns() * std::sin(angle(time)));
     external = (accelerations.array().colwise() * model().masses.array()).matrix() - acting;
   }

@@ -200,8 +200,9 @@ TEST_F(PinRequests, WaitInOrderAndTheLatestWindCounts)
     request(simulation_);
   }
   EXPECT_EQ(held("a"), std::vector<int>{ 4 });
-  EXPECT_EQ(simulation_.dynamics().air().properties().wind, Eigen::Vector3d(2, 0, 0));
   EXPECT_TRUE(queue.take_all().empty());
+  EXPECT_EQ(queue.take_wind(), Eigen::Vector3d(2, 0, 0));
+  EXPECT_FALSE(queue.take_wind().has_value());
 }
 
 TEST_F(PinRequests, TooManyAreRefused)

@@ -81,6 +81,48 @@ TEST(Simulation, OfTheSameSceneHasTheSameBits)
   EXPECT_EQ(one.state().velocities, other.state().velocities);
 }
 
+TEST(Simulation, InGustsOfTheSameSeedHasTheSameBits)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.air.gusts = { 3.0, 0.2, 4 };
+  Simulation one = simulation_of(scene);
+  Simulation again = simulation_of(scene);
+  scene.air.gusts.seed = 5;
+  Simulation other = simulation_of(scene);
+  for (Simulation* const simulation : { &one, &again, &other })
+  {
+    simulation->advance_to(0.5);
+  }
+  EXPECT_EQ(one.state().positions, again.state().positions);
+  EXPECT_GT((one.state().positions - other.state().positions).cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST(Simulation, InGustsSeesTheWindOfEveryMoment)
+{
+  // A light sheet that the air takes along goes as the wind does, a millisecond late: its way is the gusts' integral.
+  SceneParams scene = small_hanging_sheet();
+  scene.gravity.setZero();
+  scene.pins.clear();
+  scene.start.ripple = 0.0;
+  scene.start.initial_stretch.setOnes();
+  scene.sheet.mass = 1e-2;
+  scene.sheet.structural.stiffness = scene.sheet.shear.stiffness = scene.sheet.flex.stiffness = 0.0;
+  scene.air = { 0.0, 10.0, Eigen::Vector3d::Zero(), { 0.2, 0.5, 3 } };
+  scene.solver.method = "dopri5";
+  scene.solver.tolerance = 1e-6;
+  Simulation simulation = simulation_of(scene);
+  ASSERT_TRUE(simulation.advance_to(1.0)) << simulation.divergence_report();
+  const Gusts gusts(scene.air.gusts);
+  double way = 0.0;
+  constexpr int parts = 10000;
+  for (int k = 0; k < parts; ++k)
+  {
+    way += gusts.at((k + 0.5) / parts).y() / parts;
+  }
+  EXPECT_GT(std::abs(way), 0.01);
+  EXPECT_NEAR(simulation.state().positions.col(1).mean(), way, 1e-3);
+}
+
 TEST(Simulation, LeavesTheLimitAloneWhereItIsOff)
 {
   SceneParams scene = small_hanging_sheet();

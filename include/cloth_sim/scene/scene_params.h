@@ -58,6 +58,7 @@ struct NodeParams
   std::string clock_mode = "follow";
   bool start_paused = false;
   TfPinParams tf_pins;
+  double wind_timeout = 0.0;                          ///< s of ROS time; 0: none
   std::string colouring = "fabric";                   ///< fabric or strain
   Eigen::Vector3d fabric_colour{ 0.75, 0.16, 0.18 };  ///< red, green, blue in [0, 1]
 };
