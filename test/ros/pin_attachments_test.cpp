@@ -1,7 +1,7 @@
 #include "pin_attachments.h"
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 
 #include "pin_requests.h"
 #include "refused_request.h"
+#include "ros/frame_message.h"
 #include "support.h"
 
 namespace cloth
@@ -43,19 +44,7 @@ protected:
 
   void show(const Eigen::Isometry3d& gripper, const ros::Time& stamp)
   {
-    geometry_msgs::TransformStamped message;
-    message.header.frame_id = "world";
-    message.header.stamp = stamp;
-    message.child_frame_id = "gripper";
-    const Eigen::Quaterniond q(gripper.linear());
-    message.transform.translation.x = gripper.translation().x();
-    message.transform.translation.y = gripper.translation().y();
-    message.transform.translation.z = gripper.translation().z();
-    message.transform.rotation.w = q.w();
-    message.transform.rotation.x = q.x();
-    message.transform.rotation.y = q.y();
-    message.transform.rotation.z = q.z();
-    transforms_.setTransform(message, "test");
+    transforms_.setTransform(frame_message("gripper", gripper, stamp), "test");
   }
 
   void run_tick()

@@ -12,6 +12,7 @@
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/Pin.h"
 
+#include "frame_message.h"
 #include "listener.h"
 #include "time_services.h"
 
@@ -78,19 +79,7 @@ protected:
   void broadcast(const Eigen::Isometry3d& where)
   {
     shown_.push_back(where);
-    geometry_msgs::TransformStamped message;
-    message.header.frame_id = "world";
-    message.header.stamp = ros::Time::now();
-    message.child_frame_id = frame_;
-    const Eigen::Quaterniond q(where.linear());
-    message.transform.translation.x = where.translation().x();
-    message.transform.translation.y = where.translation().y();
-    message.transform.translation.z = where.translation().z();
-    message.transform.rotation.w = q.w();
-    message.transform.rotation.x = q.x();
-    message.transform.rotation.y = q.y();
-    message.transform.rotation.z = q.z();
-    broadcaster_.sendTransform(message);
+    broadcaster_.sendTransform(frame_message(frame_, where, ros::Time::now()));
   }
 
   void attach(const std::string& name, std::uint32_t row, std::uint32_t col, bool keep_offset)
@@ -261,6 +250,22 @@ TEST_F(TfPins, AMoveTakesAPinOffItsFrame)
   ASSERT_TRUE(wait_for_node_at(corner, { -0.4, 0.0, 1.6 }));
   ASSERT_TRUE(state_.wait_for_more(10));
   EXPECT_LT((position_of(state_.last(), corner) - Eigen::Vector3d(-0.4, 0.0, 1.6)).norm(), in_float32);
+}
+
+TEST_F(TfPins, APausedClothFollowsItsFrameWhenItIsStepped)
+{
+  constexpr size_t corner = 0;
+  hold_frame(pose({ -0.5, 0.2, 1.5 }));
+  attach("left", 0, corner, false);
+  ASSERT_TRUE(wait_for_node_at(corner, { -0.5, 0.2, 1.5 }));
+  ASSERT_TRUE(set_paused(true).success);
+  hold_frame(pose({ -0.5, 0.3, 1.5 }));
+  ASSERT_TRUE(state_.wait_for_more(2));  // one a second
+  EXPECT_LT((position_of(state_.last(), corner) - Eigen::Vector3d(-0.5, 0.2, 1.5)).norm(), in_float32);
+  EXPECT_TRUE(wait_until([&] {
+    return trigger("step").success == 1 && std::abs(position_of(state_.last(), corner).y() - 0.3) < in_float32;
+  }));
+  EXPECT_TRUE(set_paused(false).success);
 }
 
 TEST_F(TfPins, AResetTakesPinsOfTheSceneOffTheirFrames)
