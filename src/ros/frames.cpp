@@ -10,7 +10,7 @@
 namespace cloth
 {
 
-Frames::Frames(std::string frame_id, const tf2::BufferCore& transforms)
+Frames::Frames(std::string frame_id, tf2::BufferCore& transforms)
   : frame_id_(std::move(frame_id)), transforms_(transforms)
 {
 }

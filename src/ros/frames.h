@@ -18,7 +18,7 @@ class Frames
 {
 public:
   /// `transforms` must outlive this object; another thread may fill it meanwhile.
-  Frames(std::string frame_id, const tf2::BufferCore& transforms);
+  Frames(std::string frame_id, tf2::BufferCore& transforms);
 
   std::string frame_id() const;
   /// The cloth's frame from now on.
@@ -31,6 +31,12 @@ public:
     ros::Time stamp;  ///< zero: it holds at any time
   };
 
+  /// Forgets all transforms but static ones: those of before ROS time jumped back hide those that come now.
+  void forget_transforms() const
+  {
+    transforms_.clear();
+  }
+
   /// From the frame `source`, or none where tf does not know the way; an empty name is the cloth's frame.
   std::optional<Latest> latest(const std::string& source) const;
 
@@ -41,7 +47,7 @@ public:
 private:
   mutable std::mutex mutex_;
   std::string frame_id_;
-  const tf2::BufferCore& transforms_;
+  tf2::BufferCore& transforms_;
 };
 
 }  // namespace cloth

@@ -130,6 +130,10 @@ std::optional<Eigen::Isometry3d> PinAttachments::find(const std::string& name, c
   {
     warn("the pin '" + name + "' holds its place: the latest transform of frame '" + attachment.frame +
          "' is farther from now than tf_pins.max_age, " + format_number(params_.max_age) + " s");
+    if (latest->stamp > now)
+    {
+      frames.forget_transforms();
+    }
     return std::nullopt;
   }
   return latest->transform;

@@ -33,8 +33,8 @@ public:
 
   /// Sends every attached pin on its way to where its frame is by the latest transform, to be there at the simulated
   /// time `end` (s). From tick to tick no node goes faster than top_speed; what is farther away is caught up with
-  /// later. A pin whose frame is not known, or not of late at the ROS time `now`, holds its place. `warn` is told of
-  /// both, in the same words each tick.
+  /// later. A pin whose frame is not known, or not of late at the ROS time `now`, holds its place; transforms of a time
+  /// to come are forgotten. `warn` is told of jumps and of pins that hold, in the same words each tick.
   void carry(const Frames& frames, const ros::Time& now, double end, Simulation& simulation, const Warn& warn);
 
 private:

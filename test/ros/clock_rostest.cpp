@@ -194,7 +194,6 @@ TEST_F(SimulatedTime, APinGoesOnAfterItsFrameWhenTheClockJumpsBackwards)
   const ros::Duration long_enough(10.0);
   EXPECT_TRUE(drive_to(0.2, begin, begin + long_enough));
   EXPECT_TRUE(drive_to(0.3, begin, begin + long_enough));
-  ASSERT_TRUE(stand());  // no transform of before is still on its way: tf would take it for the latest
   const ros::Time back(20.0);
   show_time(back);
   EXPECT_TRUE(drive_to(0.1, back, back + long_enough));
