@@ -1,8 +1,7 @@
 #include "pin_wrenches.h"
 
 #include <algorithm>
-#include <iterator>
-#include <optional>
+#include <utility>
 
 #include <geometry_msgs/WrenchStamped.h>
 
@@ -88,38 +87,44 @@ void PinWrenches::advertise()
   std::unique_lock<std::mutex> lock(mutex_);
   while (!ends_)
   {
-    std::vector<ros::Publisher> unwanted;
-    for (auto entry = publishers_.begin(); entry != publishers_.end();)
+    if (auto unwanted = take_unwanted())
     {
-      if (wanted_.count(entry->first) > 0)
-      {
-        ++entry;
-        continue;
-      }
-      unwanted.push_back(entry->second);
-      entry = publishers_.erase(entry);
+      lock.unlock();
+      unwanted->shutdown();
+      lock.lock();
     }
-    const auto missing = std::find_if(wanted_.begin(), wanted_.end(),
-                                      [&](const std::string& name) { return publishers_.count(name) == 0; });
-    if (missing == wanted_.end() && unwanted.empty())
+    else if (const auto name = missing())
+    {
+      lock.unlock();
+      const auto publisher = node_.advertise<geometry_msgs::WrenchStamped>("pins/" + *name + "/wrench", 100);
+      lock.lock();
+      publishers_[*name] = publisher;
+    }
+    else
     {
       changed_.wait(lock);
-      continue;
-    }
-    const std::string name = missing == wanted_.end() ? std::string() : *missing;
-    lock.unlock();
-    unwanted.clear();
-    ros::Publisher publisher;
-    if (!name.empty())
-    {
-      publisher = node_.advertise<geometry_msgs::WrenchStamped>("pins/" + name + "/wrench", 100);
-    }
-    lock.lock();
-    if (!name.empty())
-    {
-      publishers_[name] = publisher;
     }
   }
+}
+
+std::optional<ros::Publisher> PinWrenches::take_unwanted()
+{
+  const auto unwanted = std::find_if(publishers_.begin(), publishers_.end(),
+                                     [this](const auto& entry) { return wanted_.count(entry.first) == 0; });
+  if (unwanted == publishers_.end())
+  {
+    return std::nullopt;
+  }
+  const ros::Publisher publisher = unwanted->second;
+  publishers_.erase(unwanted);
+  return publisher;
+}
+
+std::optional<std::string> PinWrenches::missing() const
+{
+  const auto found = std::find_if(wanted_.begin(), wanted_.end(),
+                                  [this](const std::string& name) { return publishers_.count(name) == 0; });
+  return found == wanted_.end() ? std::nullopt : std::make_optional(*found);
 }
 
 }  // namespace cloth

@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -36,8 +37,10 @@ public:
   void publish(const Simulation& simulation, const std::string& frame_id, const ros::Time& stamp);
 
 private:
-  /// Advertises what is wanted until there is nothing left to do for good.
+  /// Keeps the publishers to what is wanted, until the end.
   void advertise();
+  std::optional<ros::Publisher> take_unwanted();
+  std::optional<std::string> missing() const;
 
   ros::NodeHandle node_;
   std::mutex mutex_;
