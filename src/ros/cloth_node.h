@@ -24,6 +24,7 @@
 #include "live_cloth.h"
 #include "node_clock.h"
 #include "pin_handles.h"
+#include "pin_wrenches.h"
 #include "refusal_log.h"
 #include "request_queue.h"
 #include "tick_statistics.h"
@@ -52,6 +53,7 @@ private:
   void take_pin(const cloth_sim::Pin& request);
   void leave_pin(const std::string& topic, const cloth_sim::Pin& request);
   void take_point(const geometry_msgs::PointStamped& point);
+  void apply(const cloth_sim::Pin& request);
   void take_feedback(const PinHandles::Feedback::ConstPtr& feedback);
   /// Leaves the request for the next tick; a refusal, now or then, is reported as one of `topic`.
   void leave(const std::string& topic, const RequestQueue::Request& request);
@@ -66,6 +68,12 @@ private:
   void run_tick(const Tick& tick);
   void idle();
   bool apply_requests();
+  /// Wind that came by topic, or the scene's where none came for long.
+  bool apply_wind();
+  void warn_where_wind_has_no_effect();
+  void carry_pins(double simulated_time);
+  /// Whether what the cloth does to the holders of its pins is measured: for listeners only.
+  bool prepare_wrenches();
   void advance(double simulated_time);
   void start_over();
   void publish_cloth(const ros::Time& stamp);
@@ -80,7 +88,9 @@ private:
   Errands errands_;
   RequestQueue requests_;
   RefusalLog refusals_;
+  RefusalLog pin_warnings_;
   bool divergence_reported_ = false;
+  bool powerless_wind_reported_ = false;
 
   tf2::BufferCore transforms_;
   tf2_ros::TransformListener transform_listener_;
@@ -100,6 +110,7 @@ private:
   ros::Subscriber pin_point_;
   std::array<ros::ServiceServer, 4> services_;
   PinHandles handles_;
+  PinWrenches wrenches_;
 };
 
 }  // namespace cloth

@@ -11,12 +11,16 @@ LiveCloth::LiveCloth(const SceneParams& scene)
   , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
   , springs(simulation.model(), plan.scene.frame_id)
   , pins(simulation.model(), plan.scene.frame_id)
+  , attachments(plan.scene.node.tf_pins)
+  , wind_time_out(plan.scene.node.wind_timeout)
 {
 }
 
 void LiveCloth::restart()
 {
   simulation = build_simulation(plan);
+  attachments.clear();
+  wind_time_out = WindTimeOut(plan.scene.node.wind_timeout);
 }
 
 }  // namespace cloth
