@@ -11,6 +11,7 @@ add_library(cloth_ros STATIC
   src/ros/errands.cpp
   src/ros/frames.cpp
   src/ros/live_cloth.cpp
+  src/ros/live_keys.cpp
   src/ros/mesh_marker.cpp
   src/ros/messages.cpp
   src/ros/node_clock.cpp
@@ -28,6 +29,7 @@ add_library(cloth_ros STATIC
   src/ros/spring_marker.cpp
   src/ros/tick_clock.cpp
   src/ros/tick_statistics.cpp
+  src/ros/tuning.cpp
   src/ros/wind_request.cpp
 )
 add_dependencies(cloth_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})

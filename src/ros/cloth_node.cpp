@@ -51,6 +51,21 @@ bool same_topology(cloth_sim::ClothTopology left, const cloth_sim::ClothTopology
   return left == right;
 }
 
+/// Says, here and in the log, that a change has lowered the step; empty where it has not.
+std::string step_report(const SceneParams& asked, const LiveCloth& cloth)
+{
+  const double lowered = cloth.scene.solver.time_step;
+  if (lowered == asked.solver.time_step)
+  {
+    return {};
+  }
+  const std::string report = "tuning: solver.time_step lowered from " + format_number(asked.solver.time_step) +
+                             " s to " + format_number(lowered) + " s, " + format_number(Simulation::limit_share) +
+                             " of the stability limit of " + cloth.simulation.method().name;
+  ROS_WARN("%s", report.c_str());
+  return report;
+}
+
 void require_clock_mode(const SceneParams& scene, const std::string& mode)
 {
   if (scene.node.clock_mode != mode)
@@ -73,6 +88,7 @@ ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& sce
   , topology_message_(topology_of(*cloth_, 1))
   , handles_(private_node_.getNamespace() + "/pin_handles",
              [this](const PinHandles::Feedback::ConstPtr& feedback) { take_feedback(feedback); })
+  , tuning_(private_node_, scene, [this](const SceneParams& changed) { return tune(changed); })
 {
   log_plan(*cloth_);
   advertise();
@@ -196,11 +212,16 @@ Answer ClothNode::reload()
 {
   try
   {
-    const SceneParams scene = scene_from_parameters(private_node_.getNamespace());
-    require_clock_mode(scene, clock_.is_master() ? "master" : "follow");
-    auto next = std::make_unique<LiveCloth>(scene);
-    log_plan(*next);
-    return errands_.send([&] { return replace_cloth(std::move(next)); });
+    Answer answer;
+    tuning_.replace([&] {
+      const SceneParams scene = scene_from_parameters(private_node_.getNamespace());
+      require_clock_mode(scene, clock_.is_master() ? "master" : "follow");
+      auto next = std::make_unique<LiveCloth>(scene);
+      log_plan(*next);
+      answer = errands_.send([&] { return replace_cloth(std::move(next)); });
+      return scene;
+    });
+    return answer;
   }
   catch (const std::exception& error)
   {
@@ -220,13 +241,47 @@ Answer ClothNode::replace_cloth(std::unique_ptr<LiveCloth> next)
   handles_.clear();
   cloth_ = std::move(next);
   frames_.set_frame_id(cloth_->plan.scene.frame_id);
-  if (!same_topology(topology_of(*cloth_, topology_message_.version), topology_message_))
-  {
-    topology_message_ = topology_of(*cloth_, topology_message_.version + 1);
-    publish_topology();
-  }
+  tuning_report_.clear();
+  publish_topology_if_changed();
   start_over();
   return { true, "the scene of the parameter server is at its start" };
+}
+
+SceneParams ClothNode::tune(const SceneParams& scene)
+{
+  SceneParams in_force = scene;
+  const Answer answer = errands_.send([&] {
+    const Answer done = tune_cloth(scene);
+    in_force = cloth_->scene;
+    return done;
+  });
+  if (!answer.success)
+  {
+    throw SceneError(answer.message);
+  }
+  return in_force;
+}
+
+Answer ClothNode::tune_cloth(const SceneParams& scene)
+{
+  apply_requests();  // they were meant for the cloth as it was
+  try
+  {
+    cloth_ = std::make_unique<LiveCloth>(*cloth_, scene);
+  }
+  catch (const SceneError& error)
+  {
+    tuning_report_ = std::string("tuning: refused: ") + error.what();
+    return { false, error.what() };
+  }
+  tuning_report_ = step_report(scene, *cloth_);
+  clock_.set_pace(cloth_->scene.node);
+  publish_topology_if_changed();
+  if (clock_.paused())
+  {
+    publish_cloth(clock_.now());
+  }
+  return { true, {} };
 }
 
 void ClothNode::start_over()
@@ -330,6 +385,15 @@ void ClothNode::publish_topology()
   topology_.publish(topology_message_);
 }
 
+void ClothNode::publish_topology_if_changed()
+{
+  if (!same_topology(topology_of(*cloth_, topology_message_.version), topology_message_))
+  {
+    topology_message_ = topology_of(*cloth_, topology_message_.version + 1);
+    publish_topology();
+  }
+}
+
 void ClothNode::publish_stats_when_due()
 {
   const auto now = WallClock::now();
@@ -344,6 +408,7 @@ void ClothNode::publish_stats_when_due()
   message.overruns = clock_.overruns();
   message.paused = clock_.paused() ? 1 : 0;
   message.plan = joined(describe(cloth_->plan, simulation), "\n");
+  message.plan += tuning_report_.empty() ? "" : "\n" + tuning_report_;
   stats_.publish(message);
   if (clock_.paused())
   {

@@ -27,6 +27,7 @@
 #include "refusal_log.h"
 #include "request_queue.h"
 #include "tick_statistics.h"
+#include "tuning.h"
 
 namespace cloth
 {
@@ -62,6 +63,9 @@ private:
   Answer reset();
   Answer reload();
   Answer replace_cloth(std::unique_ptr<LiveCloth> next);
+  /// Gives the scene that is in force then. Throws SceneError: the cloth goes on as it was.
+  SceneParams tune(const SceneParams& scene);
+  Answer tune_cloth(const SceneParams& scene);
 
   void run_tick(const Tick& tick);
   void idle();
@@ -71,6 +75,7 @@ private:
   void publish_cloth(const ros::Time& stamp);
   void show_handles();
   void publish_topology();
+  void publish_topology_if_changed();
   void publish_stats_when_due();
 
   ros::NodeHandle private_node_;
@@ -99,7 +104,9 @@ private:
   ros::Subscriber pin_;
   ros::Subscriber pin_point_;
   std::array<ros::ServiceServer, 4> services_;
+  std::string tuning_report_;  ///< what the last change of live keys led to beside what was asked for
   PinHandles handles_;
+  Tuning tuning_;
 };
 
 }  // namespace cloth

@@ -50,6 +50,18 @@ Simulation::Simulation(SimulationSetup setup)
   changed_from_outside();
 }
 
+Simulation Simulation::gone_over_to(SimulationSetup setup) const
+{
+  setup.pins = pins().all();
+  setup.start = state_;
+  Simulation next(std::move(setup));
+  next.keeps_within_limit_ = true;
+  next.last_step_ = last_step_;
+  next.divergence_ = divergence_;
+  next.counters_ = counters_;
+  return next;
+}
+
 void Simulation::step(double h)
 {
   const double begin = state_.time;
@@ -156,15 +168,20 @@ double Simulation::time_step() const
 
 double Simulation::longest_step() const
 {
-  if (given_time_step_ > 0.0)
+  if (method_row_->is_adaptive)
+  {
+    return given_time_step_ > 0.0 ? given_time_step_ : std::numeric_limits<double>::infinity();
+  }
+  return given_time_step_ > 0.0 && !keeps_within_limit_ ? given_time_step_ : limited_step();
+}
+
+double Simulation::limited_step() const
+{
+  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
+  if (given_time_step_ > 0.0 && given_time_step_ <= limit)
   {
     return given_time_step_;
   }
-  if (method_row_->is_adaptive)
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
   return std::isfinite(limit) ? limit_share * limit : unlimited_time_step;
 }
 
