@@ -1,5 +1,7 @@
 # Messages, and what the package offers to others. Before any target, so that catkin's output folders apply to all.
 find_package(catkin REQUIRED COMPONENTS
+  diagnostic_msgs
+  diagnostic_updater
   dynamic_reconfigure
   geometry_msgs
   interactive_markers

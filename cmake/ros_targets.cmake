@@ -10,6 +10,7 @@ add_library(cloth_ros STATIC
   src/ros/end_by_signal.cpp
   src/ros/errands.cpp
   src/ros/frames.cpp
+  src/ros/health.cpp
   src/ros/live_cloth.cpp
   src/ros/live_keys.cpp
   src/ros/mesh_marker.cpp

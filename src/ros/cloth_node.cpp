@@ -9,7 +9,6 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "cloth_sim/ClothStats.h"
 #include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/yaml_text.h"
 
@@ -88,6 +87,7 @@ ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& sce
   , topology_message_(topology_of(*cloth_, 1))
   , handles_(private_node_.getNamespace() + "/pin_handles",
              [this](const PinHandles::Feedback::ConstPtr& feedback) { take_feedback(feedback); })
+  , health_(private_node_)
   , tuning_(private_node_, scene, [this](const SceneParams& changed) { return tune(changed); })
 {
   log_plan(*cloth_);
@@ -288,6 +288,7 @@ void ClothNode::start_over()
 {
   clock_.restart(cloth_->plan.scene.node);
   divergence_reported_ = false;
+  started_over_ = true;
   publish_cloth(clock_.now());
 }
 
@@ -298,7 +299,7 @@ void ClothNode::run()
   publish_cloth(clock_.now());
   while (ros::ok())
   {
-    doer.do_all();
+    errands_.do_all();
     if (const auto tick = clock_.take())
     {
       run_tick(*tick);
@@ -308,17 +309,20 @@ void ClothNode::run()
       idle();
     }
     publish_stats_when_due();
+    publish_diagnostics_when_due();
   }
 }
 
 void ClothNode::run_tick(const Tick& tick)
 {
-  const auto start = WallClock::now();
+  const auto begin = WallClock::now();
   apply_requests();
-  advance(tick.simulated_time);
-  clock_.show(tick);
-  publish_cloth(tick.stamp);
-  statistics_.add(WallClock::now() - start);
+  if (advance(tick.simulated_time))
+  {
+    clock_.show(tick);
+    publish_cloth(tick.stamp);
+  }
+  statistics_.add(WallClock::now() - begin);
 }
 
 void ClothNode::idle()
@@ -340,9 +344,35 @@ bool ClothNode::apply_requests()
   return !requests.empty();
 }
 
-void ClothNode::advance(double simulated_time)
+bool ClothNode::advance(double simulated_time)
 {
-  if (!cloth_->simulation.advance_to(simulated_time) && !divergence_reported_)
+  constexpr std::chrono::milliseconds longest_wait{ 500 };
+  started_over_ = false;
+  tick_begin_ = WallClock::now();
+  const auto first_break = *tick_begin_ + longest_wait;
+  const auto needs_a_break = [&] {
+    const auto now = WallClock::now();
+    return !ros::ok() || (now > first_break && (errands_.any_waiting() || statistics_.due(now)));
+  };
+  while (cloth_->simulation.advance_to(simulated_time, needs_a_break) &&
+         cloth_->simulation.state().time < simulated_time)
+  {
+    errands_.do_all();
+    if (started_over_ || !ros::ok())
+    {
+      break;
+    }
+    publish_stats_when_due();
+    publish_diagnostics_when_due();
+  }
+  tick_begin_.reset();
+  report_divergence();
+  return !started_over_ && ros::ok();
+}
+
+void ClothNode::report_divergence()
+{
+  if (cloth_->simulation.divergence() && !divergence_reported_)
   {
     divergence_reported_ = true;
     ROS_ERROR("%s. The last good state is kept and published until ~reset or ~reload.",
@@ -402,14 +432,16 @@ void ClothNode::publish_stats_when_due()
     return;
   }
   const Simulation& simulation = cloth_->simulation;
-  cloth_sim::ClothStats message = stats_message(simulation, statistics_.take(now, simulation.state().time));
-  message.header.stamp = clock_.now();
-  message.header.frame_id = cloth_->plan.scene.frame_id;
-  message.overruns = clock_.overruns();
-  message.paused = clock_.paused() ? 1 : 0;
-  message.plan = joined(describe(cloth_->plan, simulation), "\n");
-  message.plan += tuning_report_.empty() ? "" : "\n" + tuning_report_;
-  stats_.publish(message);
+  const TickReport ticks = statistics_.take(now, simulation.state().time);
+  tick_rate_ = ticks.rate;
+  stats_message_ = stats_message(simulation, ticks);
+  stats_message_.header.stamp = clock_.now();
+  stats_message_.header.frame_id = cloth_->plan.scene.frame_id;
+  stats_message_.overruns = clock_.overruns();
+  stats_message_.paused = clock_.paused() ? 1 : 0;
+  stats_message_.plan = joined(describe(cloth_->plan, simulation), "\n");
+  stats_message_.plan += tuning_report_.empty() ? "" : "\n" + tuning_report_;
+  stats_.publish(stats_message_);
   if (clock_.paused())
   {
     state_.publish(state_message_);  // for those who came since
@@ -419,6 +451,25 @@ void ClothNode::publish_stats_when_due()
   {
     ROS_WARN_THROTTLE(60.0, "%s", unsolved.c_str());
   }
+}
+
+void ClothNode::publish_diagnostics_when_due()
+{
+  const auto now = WallClock::now();
+  const bool has_stats = !stats_message_.method.empty();
+  if (!has_stats || !health_.due(now))
+  {
+    return;
+  }
+  Condition condition;
+  condition.stats = stats_message_;
+  condition.tick_rate = tick_rate_;
+  condition.asked = cloth_->plan.scene.node;
+  condition.strain_limit = cloth_->plan.scene.strain_limit.max_strain;
+  condition.divergence = cloth_->simulation.divergence_report();
+  condition.transform = frames_.last_use();
+  condition.tick_under_way = tick_begin_ ? std::chrono::duration<double>(now - *tick_begin_).count() : 0.0;
+  health_.publish(condition, now);
 }
 
 }  // namespace cloth

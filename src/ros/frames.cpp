@@ -36,15 +36,28 @@ Eigen::Isometry3d Frames::from(const std::string& source) const
   }
   try
   {
-    const auto transform = transforms_.lookupTransform(target, source, ros::Time(0)).transform;
-    const auto& t = transform.translation;
-    const auto& q = transform.rotation;
+    const auto latest = transforms_.lookupTransform(target, source, ros::Time(0));
+    note_use(source, latest.header.stamp);
+    const auto& t = latest.transform.translation;
+    const auto& q = latest.transform.rotation;
     return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
   }
   catch (const tf2::TransformException&)
   {
     throw RefusedRequest("tf knows no transform from frame '" + source + "' to '" + target + "'");
   }
+}
+
+std::optional<Frames::Use> Frames::last_use() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return last_use_;
+}
+
+void Frames::note_use(const std::string& source, const ros::Time& stamp) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_use_ = Use{ source, stamp.isZero() ? std::nullopt : std::make_optional((ros::Time::now() - stamp).toSec()) };
 }
 
 }  // namespace cloth

@@ -83,7 +83,7 @@ void Simulation::step(double h)
   ++counters_.steps;
 }
 
-bool Simulation::advance_to(double time)
+bool Simulation::advance_to(double time, const std::function<bool()>& stops)
 {
   double longest = longest_step();
   while (!divergence_ && state_.time < time)
@@ -103,6 +103,10 @@ bool Simulation::advance_to(double time)
       take_equal_steps(time, longest);
     }
     keep_or_restore();
+    if (state_.time < time && stops && stops())
+    {
+      break;
+    }
     if (state_.time < time)
     {
       longest = std::min(longest, longest_step());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,8 +64,9 @@ public:
 
   /// Advances to `time` (s) in equal steps, as few as the time step allows; where no step is given and the stability
   /// limit falls on the way, the rest of the way is divided anew. An adaptive method divides the way itself. False: the
-  /// simulation has diverged, and holds the last good state.
-  bool advance_to(double time);
+  /// simulation has diverged, and holds the last good state. `stops`, where given, is asked every now and then; once it
+  /// says so the cloth stays where it has got to.
+  bool advance_to(double time, const std::function<bool()>& stops = {});
 
   const ClothModel& model() const
   {
