@@ -57,9 +57,12 @@ void Tuning::take(cloth_sim::ClothConfig& config)
   try
   {
     const SceneParams asked = with_live_values(scene_, values);
-    const SceneParams in_force = apply_(asked);
-    write_back(private_node_.getNamespace(), scene_, in_force);
-    scene_ = in_force;
+    if (!(live_values_of(asked) == live_values_of(scene_)))
+    {
+      const SceneParams in_force = apply_(asked);
+      write_back(private_node_.getNamespace(), scene_, in_force);
+      scene_ = in_force;
+    }
   }
   catch (const std::exception& refusal)
   {
