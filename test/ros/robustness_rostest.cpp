@@ -73,11 +73,9 @@ size_t pinned_nodes(const ClothState& state)
 class Robustness : public testing::Test
 {
 protected:
-  static std::vector<std::string> sheet(const std::vector<std::string>& further = {})
+  static std::vector<std::string> sheet()
   {
-    std::vector<std::string> arguments{ "_rate:=50", "_cloth/rows:=8", "_cloth/cols:=8", "_cloth/ripple:=0.02" };
-    arguments.insert(arguments.end(), further.begin(), further.end());
-    return arguments;
+    return { "_rate:=50", "_cloth/rows:=8", "_cloth/cols:=8", "_cloth/ripple:=0.02" };
   }
 
   bool wait_for_node()
