@@ -201,6 +201,18 @@ void require_a_stable_step(double given, const Simulation& simulation)
   }
 }
 
+/// No method can step with forces whose squares overflow.
+void require_forces_to_reckon_with(const Simulation& simulation)
+{
+  const ClothState& state = simulation.state();
+  Vectors accelerations;
+  simulation.dynamics().accelerations(state.time, state.positions, state.velocities, accelerations);
+  if (!std::isfinite(accelerations.squaredNorm()))
+  {
+    throw SceneError("the forces on the cloth as it is would be too large to reckon with; take smaller values");
+  }
+}
+
 }  // namespace
 
 Plan make_plan(const SceneParams& scene)
@@ -231,6 +243,7 @@ Simulation build_simulation(const Plan& plan)
 Simulation carry_on(const Plan& plan, const Simulation& running)
 {
   Simulation simulation = running.gone_over_to(setup_of(plan));
+  require_forces_to_reckon_with(simulation);
   require_a_stable_step(plan.scene.solver.time_step, simulation);
   return simulation;
 }

@@ -59,7 +59,22 @@ Simulation Simulation::gone_over_to(SimulationSetup setup) const
   next.last_step_ = last_step_;
   next.divergence_ = divergence_;
   next.counters_ = counters_;
+  const bool has_lower_limit =
+      !strain_limit_.active() || next.strain_limit_.properties().max_strain < strain_limit_.properties().max_strain;
+  if (next.strain_limit_.active() && has_lower_limit)
+  {
+    next.shorten_at_no_speed();
+  }
   return next;
+}
+
+void Simulation::shorten_at_no_speed()
+{
+  constexpr int most_sweeps = 1000;
+  constexpr double in_no_hurry = std::numeric_limits<double>::infinity();
+  StrainLimit limit(model(), { strain_limit_.properties().max_strain, most_sweeps });
+  limit.apply(model(), pins(), in_no_hurry, state_);
+  changed_from_outside();
 }
 
 void Simulation::step(double h)

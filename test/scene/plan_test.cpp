@@ -197,6 +197,15 @@ TEST(LivePlan, RefusesWhatDoesNotFitTogether)
   EXPECT_THROW(live_plan(before, scene), SceneError);
 }
 
+TEST(LivePlan, WhereForcesOverflowNothingCarriesOn)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}, solver: {method: tr_bdf2}}");
+  const Plan before = make_plan(scene);
+  const Simulation running = build_simulation(before);
+  scene.gravity.z() = 1e300;
+  EXPECT_THROW(carry_on(live_plan(before, scene), running), SceneError);
+}
+
 TEST(LivePlan, WhereNoStepIsStableNothingCarriesOn)
 {
   SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}}");

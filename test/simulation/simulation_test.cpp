@@ -258,6 +258,22 @@ TEST(Simulation, GoesOverToOtherPropertiesWithoutAJerk)
       << "the hand gets where it was sent";
 }
 
+TEST(Simulation, ALowerStrainLimitGivesNoSpeed)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.strain_limit.max_strain = 0.0;
+  Simulation simulation = simulation_of(scene);
+  simulation.advance_to(0.5);
+  ASSERT_GT(max_strain(simulation.model(), simulation.state().positions), 0.03);
+  SimulationSetup setup = other_properties();
+  setup.strain_limit = { 0.02, 30 };
+  setup.time_step = 1e-5;
+  Simulation limited = simulation.gone_over_to(setup);
+  EXPECT_LT(max_strain(limited.model(), limited.state().positions), 0.0205);
+  EXPECT_EQ(limited.state().velocities, simulation.state().velocities);
+  EXPECT_TRUE(limited.advance_to(0.51)) << limited.divergence_report();
+}
+
 TEST(Simulation, GoneOverItKeepsAGivenStepWithinTheLimit)
 {
   const Simulation before = cloth_in_motion();

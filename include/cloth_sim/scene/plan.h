@@ -39,7 +39,7 @@ Simulation build_simulation(const Plan& plan);
 Plan live_plan(const Plan& running, const SceneParams& scene);
 
 /// The simulation of `plan`, a live plan, that carries on where `running` is; its wind is the plan's. Throws SceneError
-/// where no step of the method is stable.
+/// where no step of the method is stable, and where forces are too large for any.
 Simulation carry_on(const Plan& plan, const Simulation& running);
 
 /// The plan's lines and one for the step as `simulation` takes it now, each as text: "flex springs: left out,

@@ -58,8 +58,8 @@ public:
   explicit Simulation(SimulationSetup setup);
 
   /// The same cloth as it is now with the properties of `setup`, whose pins and start count for nothing: state, pins,
-  /// counters and a divergence carry on. Its step never exceeds the stability limit, also where one is given. Throws
-  /// what the constructor throws.
+  /// counters and a divergence carry on; what is stretched beyond a lower strain limit is shortened, and gains no
+  /// speed. Its step never exceeds the stability limit, also where one is given. Throws what the constructor throws.
   Simulation gone_over_to(SimulationSetup setup) const;
 
   /// Advances to `time` (s) in equal steps, as few as the time step allows; where no step is given and the stability
@@ -130,6 +130,7 @@ private:
   void take_adaptive_steps(double time, double longest);
   void keep_or_restore();
   void changed_from_outside();
+  void shorten_at_no_speed();
 
   Dynamics dynamics_;
   StrainLimit strain_limit_;
