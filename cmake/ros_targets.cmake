@@ -17,9 +17,11 @@ add_library(cloth_ros STATIC
   src/ros/messages.cpp
   src/ros/node_clock.cpp
   src/ros/node_scene.cpp
+  src/ros/pin_attachments.cpp
   src/ros/pin_handles.cpp
   src/ros/pin_markers.cpp
   src/ros/pin_requests.cpp
+  src/ros/pin_wrenches.cpp
   src/ros/recorded_model.cpp
   src/ros/recorded_topologies.cpp
   src/ros/refusal_log.cpp
@@ -32,6 +34,7 @@ add_library(cloth_ros STATIC
   src/ros/tick_statistics.cpp
   src/ros/tuning.cpp
   src/ros/wind_request.cpp
+  src/ros/wind_time_out.cpp
 )
 add_dependencies(cloth_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(cloth_ros PUBLIC src/ros)

@@ -7,6 +7,7 @@ catkin_add_gtest(test_ros
   test/ros/mesh_marker_test.cpp
   test/ros/messages_test.cpp
   test/ros/node_scene_test.cpp
+  test/ros/pin_attachments_test.cpp
   test/ros/pin_markers_test.cpp
   test/ros/pin_requests_test.cpp
   test/ros/recorded_model_test.cpp
@@ -15,6 +16,7 @@ catkin_add_gtest(test_ros
   test/ros/shading_test.cpp
   test/ros/tick_clock_test.cpp
   test/ros/tick_statistics_test.cpp
+  test/ros/wind_time_out_test.cpp
 )
 target_link_libraries(test_ros cloth_ros ${GTEST_MAIN_LIBRARIES})
 target_include_directories(test_ros PRIVATE test)
@@ -31,7 +33,8 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence health lost_master master_clock pin_handles reload replay requests robustness start_up streams time tuning)
+foreach(name bag clock divergence health lost_master master_clock pin_handles reload replay requests robustness start_up streams tf_pins
+    time tuning wind wrenches)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
   )

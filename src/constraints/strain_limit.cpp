@@ -18,13 +18,16 @@ constexpr int block_size = 32;
 class Sweeps
 {
 public:
-  Sweeps(const ClothModel& model, double max_strain, const std::vector<double>& inverse_masses, Vectors& positions)
+  /// `shifts`, unless null, gets what the held ends of springs were spared: their mass times way, kg m.
+  Sweeps(const ClothModel& model, double max_strain, const std::vector<double>& inverse_masses, Vectors& positions,
+         Vectors* shifts)
     : batches_(limited(model.springs))
     , max_strain_(max_strain)
     , inverse_masses_(inverse_masses)
     , x_(positions.col(0).data())
     , y_(positions.col(1).data())
     , z_(positions.col(2).data())
+    , shifts_(shifts)
     , moved_at_(static_cast<size_t>(model.nodes() / block_size + 1), 0)
   {
     for (const SpringBatch* batch : batches_)
@@ -140,6 +143,12 @@ private:
       return;
     }
     const double part = (1.0 - limit_ / std::sqrt(squared)) / inverse_masses;
+    if (shifts_ != nullptr)
+    {
+      const Eigen::RowVector3d pull(x_[j] - x_[i], y_[j] - y_[i], z_[j] - z_[i]);
+      shifts_->row(i) += part * pull;
+      shifts_->row(j) -= part * pull;
+    }
     const double share_i = part * inverse_masses_[static_cast<size_t>(i)];
     const double share_j = part * inverse_masses_[static_cast<size_t>(j)];
     for (double* const column : { x_, y_, z_ })
@@ -159,6 +168,7 @@ private:
   double* const x_;
   double* const y_;
   double* const z_;
+  Vectors* const shifts_;
   long now_ = 0;  ///< counts the blocks looked at
   std::vector<long> moved_at_;
   std::vector<std::vector<long>> found_short_at_;
@@ -174,14 +184,17 @@ StrainLimit::StrainLimit(const ClothModel& model, const StrainLimitProperties& p
   inverse_masses_.resize(static_cast<size_t>(model.nodes()));
 }
 
-StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state)
+StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state,
+                                       Vectors* impulses)
 {
   for (int i = 0; i < model.nodes(); ++i)
   {
     inverse_masses_[static_cast<size_t>(i)] = pins.holds(i) ? 0.0 : 1.0 / model.masses[i];
   }
   uncorrected_ = state.positions;
-  Sweeps sweeps(model, properties_.max_strain, inverse_masses_, state.positions);
+  Vectors shifts = Vectors::Zero(impulses != nullptr ? model.nodes() : 0, 3);
+  Sweeps sweeps(model, properties_.max_strain, inverse_masses_, state.positions,
+                impulses != nullptr ? &shifts : nullptr);
   Report report;
   bool corrected = true;
   while (corrected && report.sweeps < properties_.sweeps)
@@ -195,6 +208,10 @@ StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins
   if (report.moved)
   {
     state.velocities += (state.positions - uncorrected_) / h;
+  }
+  if (impulses != nullptr)
+  {
+    *impulses += shifts / h;
   }
   return report;
 }

@@ -3,7 +3,7 @@
 namespace cloth
 {
 
-Air::Air(const AirProperties& properties) : properties_(properties)
+Air::Air(const AirProperties& properties) : properties_(properties), gusts_(properties.gusts)
 {
 }
 
@@ -12,7 +12,7 @@ bool Air::is_coupled(const ClothModel& model) const
   return properties_.wind_coupling > 0.0 && !model.is_chain();
 }
 
-void Air::add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+void Air::add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                      Vectors& forces) const
 {
   if (properties_.viscous_damping > 0.0)
@@ -26,24 +26,27 @@ void Air::add_forces(const ClothModel& model, const Vectors& positions, const Ve
   {
     return;
   }
-  find_normal_speeds(model, positions, velocities);
+  find_normal_speeds(model, time, positions, velocities);
   normal_speeds_ *= properties_.wind_coupling * model.areas.array();
   forces.array() += normals_.array().colwise() * normal_speeds_;
 }
 
-void Air::find_normal_speeds(const ClothModel& model, const Vectors& positions, const Vectors& velocities) const
+void Air::find_normal_speeds(const ClothModel& model, double time, const Vectors& positions,
+                             const Vectors& velocities) const
 {
   node_normals(model, positions, normals_);
+  const Eigen::Vector3d wind = wind_at(time);
   normal_speeds_.setZero(model.nodes());
   for (int d = 0; d < 3; ++d)
   {
-    normal_speeds_ += normals_.col(d).array() * (properties_.wind[d] - velocities.col(d).array());
+    normal_speeds_ += normals_.col(d).array() * (wind[d] - velocities.col(d).array());
   }
 }
 
 // n is a unit vector, so that along n the equation is scalar:
 // (m + h C_dis + h C_vi) (n . v) = m (n . v_given) + h C_vi (n . u),  and across n: (m + h C_dis) v = m v_given.
-void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const
+void Air::damp_implicitly(const ClothModel& model, double time, const Vectors& positions, double h,
+                          Vectors& velocities) const
 {
   if (properties_.viscous_damping > 0.0)
   {
@@ -57,7 +60,7 @@ void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, dou
   {
     return;
   }
-  find_normal_speeds(model, positions, velocities);
+  find_normal_speeds(model, time, positions, velocities);
   const auto coupled = h * properties_.wind_coupling * model.areas.array();
   const auto inertia = model.masses.array() + h * properties_.viscous_damping * model.areas.array();
   normal_speeds_ *= coupled / (inertia + coupled);

@@ -64,6 +64,10 @@ public:
       error = try_step(dynamics, taken, state, report);
     }
     report.converged = error <= 1.0;
+    if (records())
+    {
+      stages_.add_impulses(dynamics, taken, impulses());
+    }
     state = stages_.advanced(dynamics, taken, state);
     stages_.keep_last_as_first();
     choose_next_step(taken, error, report.rejected_steps > 0);
@@ -94,6 +98,7 @@ private:
     Vectors error_in_positions = Vectors::Zero(state.positions.rows(), 3);
     Vectors error_in_velocities = error_in_positions;
     stages_.add_weighted(h, error_weights(), error_in_positions, error_in_velocities);
+    dynamics.pins().clear_held(error_in_velocities);
     const double largest =
         std::max(error_in_positions.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>(),
                  h * h * error_in_velocities.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());

@@ -29,12 +29,17 @@ void Dynamics::forces_without_air(double time, const Vectors& positions, const V
 void Dynamics::forces(double time, const Vectors& positions, const Vectors& velocities, Vectors& forces) const
 {
   forces_without_air(time, positions, velocities, forces);
-  air_.add_forces(model_, positions, velocities, forces);
+  air_.add_forces(model_, time, positions, velocities, forces);
+}
+
+void Dynamics::unheld_accelerations_of(const Vectors& forces, Vectors& accelerations) const
+{
+  accelerations = forces.array().colwise() / model_.masses.array();
 }
 
 void Dynamics::accelerations_of(const Vectors& forces, Vectors& accelerations) const
 {
-  accelerations = forces.array().colwise() / model_.masses.array();
+  unheld_accelerations_of(forces, accelerations);
   pins_.clear_held(accelerations);
 }
 

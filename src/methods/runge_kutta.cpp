@@ -20,7 +20,8 @@ void RungeKuttaStages::work_out(const Dynamics& dynamics, double h, const ClothS
     stage_.time = state.time + tableau_.times[i] * h;
     add_weighted(h, tableau_.stages[i], stage_.positions, stage_.velocities);
     dynamics.pins().impose(stage_.time, stage_.positions, stage_.velocities);
-    dynamics.accelerations(stage_.time, stage_.positions, stage_.velocities, slopes_[i].acceleration);
+    dynamics.forces(stage_.time, stage_.positions, stage_.velocities, slopes_[i].acceleration);
+    dynamics.unheld_accelerations_of(slopes_[i].acceleration, slopes_[i].acceleration);
     slopes_[i].velocity = stage_.velocities;
   }
 }
@@ -47,6 +48,15 @@ void RungeKuttaStages::add_weighted(double h, const std::vector<double>& weights
   }
 }
 
+void RungeKuttaStages::add_impulses(const Dynamics& dynamics, double h, Vectors& impulses) const
+{
+  for (size_t i = 0; i < slopes_.size(); ++i)
+  {
+    const Eigen::ArrayXd factors = h * tableau_.weights[i] * dynamics.model().masses.array();
+    impulses.array() += slopes_[i].acceleration.array().colwise() * factors;
+  }
+}
+
 void RungeKuttaStages::keep_last_as_first()
 {
   std::swap(slopes_.front(), slopes_.back());
@@ -59,6 +69,10 @@ RungeKutta::RungeKutta(const Tableau& tableau) : stages_(tableau)
 StepReport RungeKutta::step(const Dynamics& dynamics, double h, ClothState& state)
 {
   stages_.work_out(dynamics, h, state);
+  if (records())
+  {
+    stages_.add_impulses(dynamics, h, impulses());
+  }
   state = stages_.advanced(dynamics, h, state);
   StepReport report;
   report.force_evaluations = stages_.count();

@@ -14,7 +14,9 @@ class SymplecticEuler : public Method
 public:
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
-    dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
+    dynamics.forces(state.time, state.positions, state.velocities, accelerations_);
+    add_impulses(h, accelerations_);
+    dynamics.accelerations_of(accelerations_, accelerations_);
     state.velocities += h * accelerations_;
     state.positions += h * state.velocities;
     state.time += h;

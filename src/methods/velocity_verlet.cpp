@@ -25,7 +25,12 @@ public:
     {
       dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
       accelerations_known_ = true;
+      predicted_ = state.velocities;
       ++report.force_evaluations;
+    }
+    if (records())
+    {
+      record_first_half(dynamics, h, state);
     }
     const double end = state.time + h;
     predicted_ = state.velocities + h * accelerations_;
@@ -34,15 +39,20 @@ public:
     dynamics.pins().impose(end, state.positions, predicted_);
 
     dynamics.forces_without_air(end, state.positions, predicted_, accelerations_);
+    add_impulses(0.5 * h, accelerations_);
     dynamics.accelerations_of(accelerations_, accelerations_);
     half_way_ = state.velocities;
     state.velocities += 0.5 * h * accelerations_;
-    dynamics.air().damp_implicitly(dynamics.model(), state.positions, 0.5 * h, state.velocities);
+    dynamics.air().damp_implicitly(dynamics.model(), end, state.positions, 0.5 * h, state.velocities);
     accelerations_ = (2.0 / h) * (state.velocities - half_way_);
 
     dynamics.pins().clear_held(accelerations_);
     dynamics.pins().impose_velocities(end, state.velocities);
     state.time = end;
+    if (records())
+    {
+      record_air(dynamics, 0.5 * h, state);
+    }
     return report;
   }
 
@@ -52,10 +62,27 @@ public:
   }
 
 private:
+  /// With the springs' forces at the velocities that the kept accelerations come from.
+  void record_first_half(const Dynamics& dynamics, double h, const ClothState& state)
+  {
+    dynamics.forces_without_air(state.time, state.positions, predicted_, forces_);
+    add_impulses(0.5 * h, forces_);
+    record_air(dynamics, 0.5 * h, state);
+  }
+
+  /// At the velocities that held nodes have.
+  void record_air(const Dynamics& dynamics, double duration, const ClothState& state)
+  {
+    forces_.setZero(state.positions.rows(), 3);
+    dynamics.air().add_forces(dynamics.model(), state.time, state.positions, state.velocities, forces_);
+    add_impulses(duration, forces_);
+  }
+
   bool accelerations_known_ = false;
   Vectors accelerations_;
   Vectors predicted_;
   Vectors half_way_;
+  Vectors forces_;
 };
 
 // The first eigenvalue of the step to leave the unit circle leaves it at -1, where z^2/4 + D h = 1, D being the

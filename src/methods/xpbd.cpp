@@ -39,6 +39,10 @@ public:
       predict(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       dynamics.pins().impose(state.time, state.positions, state.velocities);
+      if (records())
+      {
+        record_external_forces(dynamics, substep, state);
+      }
       for (const SpringBatch& batch : model.springs)
       {
         project(batch, substep, state);
@@ -55,13 +59,20 @@ private:
     dynamics.external_forces(state.time, accelerations_);
     dynamics.accelerations_of(accelerations_, accelerations_);
     state.velocities += h * accelerations_;
-    dynamics.air().damp_implicitly(dynamics.model(), state.positions, h, state.velocities);
+    dynamics.air().damp_implicitly(dynamics.model(), state.time + h, state.positions, h, state.velocities);
     state.positions += h * state.velocities;
+  }
+
+  void record_external_forces(const Dynamics& dynamics, double h, const ClothState& state)
+  {
+    dynamics.external_forces(state.time, accelerations_);
+    dynamics.air().add_forces(dynamics.model(), state.time, state.positions, state.velocities, accelerations_);
+    add_impulses(h, accelerations_);
   }
 
   /// In two colours: springs whose first ends lie in every second stretch of `offset` nodes share no node. The order is
   /// always the same, and so is the result.
-  void project(const SpringBatch& batch, double h, ClothState& state) const
+  void project(const SpringBatch& batch, double h, ClothState& state)
   {
     const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h), compliance_ / (batch.stiffness * h * h),
                        batch.rest_length };
@@ -83,7 +94,7 @@ private:
     double rest_length;
   };
 
-  void project(int i, int j, const Gains& gains, double h, ClothState& state) const
+  void project(int i, int j, const Gains& gains, double h, ClothState& state)
   {
     const Eigen::RowVector3d l = state.positions.row(j) - state.positions.row(i);
     const double length = l.norm();
@@ -96,6 +107,11 @@ private:
     const double approach = h * n.dot(state.velocities.row(j) - state.velocities.row(i));
     const double lambda = -(length - gains.rest_length + gains.damping * approach) /
                           ((1.0 + gains.damping) * inverse_masses + gains.compliance);
+    if (records())
+    {
+      impulses().row(i) -= lambda / h * n;
+      impulses().row(j) += lambda / h * n;
+    }
     move(i, -lambda * inverse_masses_[i] * n, h, state);
     move(j, lambda * inverse_masses_[j] * n, h, state);
   }

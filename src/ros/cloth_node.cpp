@@ -82,11 +82,13 @@ ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& sce
   , clock_(scene.node)
   , statistics_(WallClock::now())
   , refusals_([](const std::string& cause) { ROS_WARN("refused: %s", cause.c_str()); })
+  , pin_warnings_([](const std::string& warning) { ROS_WARN("%s", warning.c_str()); })
   , transform_listener_(transforms_)
   , frames_(scene.frame_id, transforms_)
   , topology_message_(topology_of(*cloth_, 1))
   , handles_(private_node_.getNamespace() + "/pin_handles",
              [this](const PinHandles::Feedback::ConstPtr& feedback) { take_feedback(feedback); })
+  , wrenches_(private_node_)
   , health_(private_node_)
   , tuning_(private_node_, scene, [this](const SceneParams& changed) { return tune(changed); })
 {
@@ -143,17 +145,20 @@ void ClothNode::take_point(const geometry_msgs::PointStamped& point)
 
 void ClothNode::leave_pin(const std::string& topic, const cloth_sim::Pin& request)
 {
-  leave(topic, [this, request](Simulation& simulation) {
-    apply_pin(request, frames_, clock_.simulated_period(), simulation);
-  });
+  leave(topic, [this, request](Simulation&) { apply(request); });
+}
+
+void ClothNode::apply(const cloth_sim::Pin& request)
+{
+  apply_pin(request, frames_, clock_.simulated_period(), cloth_->simulation, cloth_->attachments);
 }
 
 void ClothNode::take_feedback(const PinHandles::Feedback::ConstPtr& feedback)
 {
-  leave("~pin_handles", [this, feedback](Simulation& simulation) {
+  leave("~pin_handles", [this, feedback](Simulation&) {
     if (const auto request = handles_.take(*feedback))
     {
-      apply_pin(*request, frames_, clock_.simulated_period(), simulation);
+      apply(*request);
     }
   });
 }
@@ -240,6 +245,7 @@ Answer ClothNode::replace_cloth(std::unique_ptr<LiveCloth> next)
   }
   handles_.clear();
   cloth_ = std::move(next);
+  powerless_wind_reported_ = false;
   frames_.set_frame_id(cloth_->plan.scene.frame_id);
   tuning_report_.clear();
   publish_topology_if_changed();
@@ -317,10 +323,16 @@ void ClothNode::run_tick(const Tick& tick)
 {
   const auto begin = WallClock::now();
   apply_requests();
+  carry_pins(tick.simulated_time);
+  const bool measures = prepare_wrenches();
   if (advance(tick.simulated_time))
   {
     clock_.show(tick);
     publish_cloth(tick.stamp);
+    if (measures && !cloth_->simulation.divergence())
+    {
+      wrenches_.publish(cloth_->simulation, cloth_->plan.scene.frame_id, tick.stamp);
+    }
   }
   statistics_.add(WallClock::now() - begin);
 }
@@ -341,7 +353,52 @@ bool ClothNode::apply_requests()
   {
     request(cloth_->simulation);
   }
-  return !requests.empty();
+  return apply_wind() || !requests.empty();
+}
+
+bool ClothNode::apply_wind()
+{
+  if (const auto wind = requests_.take_wind())
+  {
+    warn_where_wind_has_no_effect();
+    cloth_->simulation.set_wind(*wind);
+    cloth_->wind_time_out.restart(clock_.now());
+    return true;
+  }
+  if (cloth_->wind_time_out.is_over(clock_.now()))
+  {
+    ROS_WARN("no message on ~wind for more than wind_timeout, %s s: the scene's wind blows again",
+             format_number(cloth_->plan.scene.node.wind_timeout).c_str());
+    cloth_->simulation.set_wind(cloth_->plan.scene.air.wind);
+    return true;
+  }
+  return false;
+}
+
+void ClothNode::warn_where_wind_has_no_effect()
+{
+  const Simulation& simulation = cloth_->simulation;
+  if (powerless_wind_reported_ || simulation.dynamics().air().is_coupled(simulation.model()))
+  {
+    return;
+  }
+  powerless_wind_reported_ = true;
+  ROS_WARN("~wind has no effect: %s",
+           simulation.model().is_chain() ? "a chain has no normals, along which wind acts" : "air.wind_coupling is 0");
+}
+
+void ClothNode::carry_pins(double simulated_time)
+{
+  cloth_->attachments.carry(frames_, clock_.now(), simulated_time, cloth_->simulation,
+                            [this](const std::string& warning) { pin_warnings_.report(warning); });
+}
+
+bool ClothNode::prepare_wrenches()
+{
+  wrenches_.offer(cloth_->simulation.pins().all());
+  const bool measures = wrenches_.is_listened_to();
+  cloth_->simulation.measure_reactions(measures);
+  return measures;
 }
 
 bool ClothNode::advance(double simulated_time)

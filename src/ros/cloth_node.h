@@ -27,6 +27,7 @@
 #include "live_cloth.h"
 #include "node_clock.h"
 #include "pin_handles.h"
+#include "pin_wrenches.h"
 #include "refusal_log.h"
 #include "request_queue.h"
 #include "tick_statistics.h"
@@ -56,6 +57,7 @@ private:
   void take_pin(const cloth_sim::Pin& request);
   void leave_pin(const std::string& topic, const cloth_sim::Pin& request);
   void take_point(const geometry_msgs::PointStamped& point);
+  void apply(const cloth_sim::Pin& request);
   void take_feedback(const PinHandles::Feedback::ConstPtr& feedback);
   /// Leaves the request for the next tick; a refusal, now or then, is reported as one of `topic`.
   void leave(const std::string& topic, const RequestQueue::Request& request);
@@ -77,6 +79,12 @@ private:
   /// the node ends, and the rest of the tick is left out.
   bool advance(double simulated_time);
   void report_divergence();
+  /// Wind that came by topic, or the scene's where none came for long.
+  bool apply_wind();
+  void warn_where_wind_has_no_effect();
+  void carry_pins(double simulated_time);
+  /// Whether what the cloth does to the holders of its pins is measured: for listeners only.
+  bool prepare_wrenches();
   void start_over();
   void publish_cloth(const ros::Time& stamp);
   void show_handles();
@@ -92,9 +100,11 @@ private:
   Errands errands_;
   RequestQueue requests_;
   RefusalLog refusals_;
+  RefusalLog pin_warnings_;
   bool divergence_reported_ = false;
   bool started_over_ = false;                                    ///< since the last tick began
   std::optional<TickStatistics::Clock::time_point> tick_begin_;  ///< of the tick that is under way
+  bool powerless_wind_reported_ = false;
 
   tf2::BufferCore transforms_;
   tf2_ros::TransformListener transform_listener_;
@@ -117,6 +127,7 @@ private:
   std::array<ros::ServiceServer, 4> services_;
   std::string tuning_report_;  ///< what the last change of live keys led to beside what was asked for
   PinHandles handles_;
+  PinWrenches wrenches_;
   Health health_;
   Tuning tuning_;
 };

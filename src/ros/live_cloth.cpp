@@ -27,6 +27,8 @@ LiveCloth::LiveCloth(const SceneParams& scene)
   , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
   , springs(simulation.model(), plan.scene.frame_id)
   , pins(simulation.model(), plan.scene.frame_id)
+  , attachments(plan.scene.node.tf_pins)
+  , wind_time_out(plan.scene.node.wind_timeout)
 {
 }
 
@@ -37,6 +39,8 @@ LiveCloth::LiveCloth(const LiveCloth& running, const SceneParams& next)
   , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
   , springs(simulation.model(), plan.scene.frame_id)
   , pins(running.pins)
+  , attachments(running.attachments)
+  , wind_time_out(running.wind_time_out)
 {
   const double given = scene.solver.time_step;
   if (!simulation.method().is_adaptive && given > simulation.time_step())
@@ -48,6 +52,8 @@ LiveCloth::LiveCloth(const LiveCloth& running, const SceneParams& next)
 void LiveCloth::restart()
 {
   simulation = build_simulation(plan);
+  attachments.clear();
+  wind_time_out = WindTimeOut(plan.scene.node.wind_timeout);
 }
 
 }  // namespace cloth

@@ -4,8 +4,10 @@
 #include "cloth_sim/simulation/simulation.h"
 
 #include "mesh_marker.h"
+#include "pin_attachments.h"
 #include "pin_markers.h"
 #include "spring_marker.h"
+#include "wind_time_out.h"
 
 namespace cloth
 {
@@ -30,6 +32,8 @@ struct LiveCloth
   MeshMarker mesh;
   SpringMarker springs;
   PinMarkers pins;
+  PinAttachments attachments;
+  WindTimeOut wind_time_out;
 };
 
 }  // namespace cloth

@@ -9,9 +9,9 @@
 namespace cloth
 {
 
-/// Warns once of each cause of refusal, however often it comes: the same text again only after `quiet_time`, and no
-/// more than `max_causes` texts within it. Goes by a steady clock, because ROS time may stand still. May be used from
-/// several threads.
+/// Warns once of each cause of refusal or trouble, however often it comes: the same text again only after `quiet_time`,
+/// and no more than `max_causes` texts within it. Goes by a steady clock, because ROS time may stand still. May be used
+/// from several threads.
 class RefusalLog
 {
 public:

@@ -149,6 +149,13 @@ std::vector<Parameter<SceneParams>> make_table()
                       "how the air's velocity relative to the sheet acts along its normals; 0: no normals are computed",
                       CLOTH_MEMBER(air.wind_coupling))),
     live(Scene::vector("air.wind", "m/s", any, "velocity of the air: the way it moves", CLOTH_MEMBER(air.wind))),
+    Scene::number("air.gusts.strength", "m/s", not_negative,
+                  "root mean square of each component of smooth gusts, which are added to the wind, also to that of "
+                  "~wind; 0: none",
+                  CLOTH_MEMBER(air.gusts.strength)),
+    Scene::number("air.gusts.time_scale", "s", positive, "how long a gust lasts", CLOTH_MEMBER(air.gusts.time_scale)),
+    Scene::integer("air.gusts.seed", 0, 2147483647, "the same seed is the same gusts at the same simulated time",
+                   CLOTH_MEMBER(air.gusts.seed)),
 
     live(Scene::choice("solver.method", method_words(), "time-stepping method; auto is velocity_verlet",
                        CLOTH_MEMBER(solver.method))),
@@ -180,6 +187,18 @@ std::vector<Parameter<SceneParams>> make_table()
                            CLOTH_MEMBER(node.clock_mode))),
     for_node(Scene::choice("start_paused", { "false", "true" }, "whether time stands still at the start",
                            CLOTH_MEMBER(node.start_paused))),
+    for_node(Scene::number("tf_pins.top_speed", "m/s", positive,
+                           "the fastest, in simulated time, that a pin follows the tf frame that carries it; where the "
+                           "frame jumps it catches up at this speed",
+                           CLOTH_MEMBER(node.tf_pins.top_speed))),
+    for_node(Scene::number("tf_pins.max_age", "s", not_negative,
+                           "a pin holds its place while the latest transform of its frame is older, or farther in the "
+                           "future; 0: of any age will do",
+                           CLOTH_MEMBER(node.tf_pins.max_age))),
+    for_node(
+        Scene::number("wind_timeout", "s", not_negative,
+                      "so long after the last message on ~wind, in ROS time, the scene's wind blows again; 0: never",
+                      CLOTH_MEMBER(node.wind_timeout))),
     for_node(Scene::choice("display.colouring", { "fabric", "strain" },
                            "colour of the mesh: the fabric's, or the strain of the springs at each node",
                            CLOTH_MEMBER(node.colouring))),

@@ -51,6 +51,11 @@ PlanLine viscous_damping_line(const SceneParams& scene)
            coefficient > 0.0 ? format_number(coefficient) + " N s/m per m2" : "the coefficient is 0" };
 }
 
+std::string gusts_in_words(const GustProperties& gusts)
+{
+  return gusts.strength == 0.0 ? "" : " with gusts of " + format_number(gusts.strength) + " m/s";
+}
+
 PlanLine wind_line(const SceneParams& scene)
 {
   if (scene.air.wind_coupling == 0.0)
@@ -63,7 +68,7 @@ PlanLine wind_line(const SceneParams& scene)
   }
   return { "wind", true,
            format_number(scene.air.wind_coupling) + " N s/m per m2, air at " + format_number(scene.air.wind.norm()) +
-               " m/s; still air drags too" };
+               " m/s" + gusts_in_words(scene.air.gusts) + "; still air drags too" };
 }
 
 PlanLine strain_limit_line(const SceneParams& scene)

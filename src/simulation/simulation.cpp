@@ -59,6 +59,10 @@ Simulation Simulation::gone_over_to(SimulationSetup setup) const
   next.last_step_ = last_step_;
   next.divergence_ = divergence_;
   next.counters_ = counters_;
+  next.measures_reactions_ = measures_reactions_;
+  next.measured_since_ = measured_since_;
+  next.velocities_before_ = velocities_before_;
+  next.impulses_ = impulses_;
   const bool has_lower_limit =
       !strain_limit_.active() || next.strain_limit_.properties().max_strain < strain_limit_.properties().max_strain;
   if (next.strain_limit_.active() && has_lower_limit)
@@ -80,11 +84,13 @@ void Simulation::shorten_at_no_speed()
 void Simulation::step(double h)
 {
   const double begin = state_.time;
+  method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
   const StepReport report = method_->step(dynamics_, h, state_);
   last_step_ = state_.time - begin;
   if (strain_limit_.active())
   {
-    const StrainLimit::Report limit_report = strain_limit_.apply(model(), pins(), last_step_, state_);
+    const StrainLimit::Report limit_report =
+        strain_limit_.apply(model(), pins(), last_step_, state_, measures_reactions_ ? &impulses_ : nullptr);
     if (limit_report.moved)
     {
       method_->restart();
@@ -227,6 +233,37 @@ std::string Simulation::divergence_report() const
   return text.str();
 }
 
+void Simulation::measure_reactions(bool measure)
+{
+  measures_reactions_ = measure;
+  if (measure)
+  {
+    measured_since_ = state_.time;
+    velocities_before_ = state_.velocities;
+    impulses_.setZero(model().nodes(), 3);
+  }
+}
+
+Wrench Simulation::reaction_on(const Pin& pin) const
+{
+  Wrench wrench;
+  const double duration = state_.time - measured_since_;
+  if (!measures_reactions_ || duration <= 0.0)
+  {
+    return wrench;
+  }
+  const Eigen::RowVector3d middle = state_.positions(pin.nodes, Eigen::all).colwise().mean();
+  for (const int node : pin.nodes)
+  {
+    const Eigen::RowVector3d change = state_.velocities.row(node) - velocities_before_.row(node);
+    const Eigen::Vector3d force = (impulses_.row(node) - model().masses[node] * change).transpose() / duration;
+    const Eigen::Vector3d arm = (state_.positions.row(node) - middle).transpose();
+    wrench.force += force;
+    wrench.torque += arm.cross(force);
+  }
+  return wrench;
+}
+
 void Simulation::set_wind(const Eigen::Vector3d& wind)
 {
   dynamics_.air().set_wind(wind);
@@ -257,8 +294,22 @@ void Simulation::release_all()
 bool Simulation::carry(const std::string& name, const Eigen::Vector3d& target, double duration)
 {
   const bool carried = dynamics_.pins().carry(name, target, state_.time, state_.time + duration);
-  guard_.allow_pin_motion(dynamics_);
+  pins_sent_elsewhere();
   return carried;
+}
+
+bool Simulation::carry(const std::string& name, const Eigen::Isometry3d& placement, const Eigen::Vector3d& pivot,
+                       double end)
+{
+  const bool carried = dynamics_.pins().carry(name, placement, pivot, state_.time, end);
+  pins_sent_elsewhere();
+  return carried;
+}
+
+void Simulation::pins_sent_elsewhere()
+{
+  method_->restart();
+  guard_.allow_pin_motion(dynamics_);
 }
 
 }  // namespace cloth

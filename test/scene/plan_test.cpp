@@ -43,7 +43,8 @@ TEST(Plan, KeepsWhatActsAndCountsIt)
   EXPECT_EQ(line_of("flex springs", yaml), "flex springs: kept, 22 of 10.0 N/m, undamped");
   EXPECT_EQ(line_of("gravity", yaml), "gravity: kept, 9.81 m/s2");
   EXPECT_EQ(line_of("viscous damping", yaml), "viscous damping: kept, 0.3 N s/m per m2");
-  EXPECT_TRUE(has(line_of("wind", yaml), { "wind: kept, 1.0 N s/m per m2, air at 0.0 m/s" }));
+  EXPECT_TRUE(has(line_of("wind", yaml), { "wind: kept, 1.0 N s/m per m2, air at 0.0 m/s; still" }));
+  EXPECT_TRUE(has(line_of("wind", "air: {gusts: {strength: 2}}"), { "air at 0.0 m/s with gusts of 2.0 m/s; still" }));
   EXPECT_EQ(line_of("strain limit", yaml), "strain limit: kept, 0.1 in at most 30 sweeps a step");
   EXPECT_TRUE(has(line_of("pins", yaml), { "pins: kept, 2 nodes in 2 pins, 0 " }));
   EXPECT_TRUE(has(line_of("pins", "pins: [{name: a, at: border, motion: {amplitude: [0, 0, 1], frequency: 1}}]"),

@@ -81,6 +81,48 @@ TEST(Simulation, OfTheSameSceneHasTheSameBits)
   EXPECT_EQ(one.state().velocities, other.state().velocities);
 }
 
+TEST(Simulation, InGustsOfTheSameSeedHasTheSameBits)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.air.gusts = { 3.0, 0.2, 4 };
+  Simulation one = simulation_of(scene);
+  Simulation again = simulation_of(scene);
+  scene.air.gusts.seed = 5;
+  Simulation other = simulation_of(scene);
+  for (Simulation* const simulation : { &one, &again, &other })
+  {
+    simulation->advance_to(0.5);
+  }
+  EXPECT_EQ(one.state().positions, again.state().positions);
+  EXPECT_GT((one.state().positions - other.state().positions).cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST(Simulation, InGustsSeesTheWindOfEveryMoment)
+{
+  // A light sheet that the air takes along goes as the wind does, a millisecond late: its way is the gusts' integral.
+  SceneParams scene = small_hanging_sheet();
+  scene.gravity.setZero();
+  scene.pins.clear();
+  scene.start.ripple = 0.0;
+  scene.start.initial_stretch.setOnes();
+  scene.sheet.mass = 1e-2;
+  scene.sheet.structural.stiffness = scene.sheet.shear.stiffness = scene.sheet.flex.stiffness = 0.0;
+  scene.air = { 0.0, 10.0, Eigen::Vector3d::Zero(), { 0.2, 0.5, 3 } };
+  scene.solver.method = "dopri5";
+  scene.solver.tolerance = 1e-6;
+  Simulation simulation = simulation_of(scene);
+  ASSERT_TRUE(simulation.advance_to(1.0)) << simulation.divergence_report();
+  const Gusts gusts(scene.air.gusts);
+  double way = 0.0;
+  constexpr int parts = 10000;
+  for (int k = 0; k < parts; ++k)
+  {
+    way += gusts.at((k + 0.5) / parts).y() / parts;
+  }
+  EXPECT_GT(std::abs(way), 0.01);
+  EXPECT_NEAR(simulation.state().positions.col(1).mean(), way, 1e-3);
+}
+
 TEST(Simulation, LeavesTheLimitAloneWhereItIsOff)
 {
   SceneParams scene = small_hanging_sheet();
@@ -194,6 +236,44 @@ TEST(Simulation, CarriesAPinWithinTheTimeGiven)
   EXPECT_FALSE(simulation.carry("nobody", { 0.0, 0.0, 0.0 }, 0.1));
   simulation.advance_to(0.1);
   EXPECT_TRUE(simulation.state().positions.row(0).isApprox(Eigen::RowVector3d(-0.3, 0.2, 1.6), 1e-12));
+}
+
+TEST(Simulation, TurnsAPinAsARigidBodyUpToAMomentOfEveryMethod)
+{
+  for (const MethodRow& row : methods())
+  {
+    SCOPED_TRACE(row.name);
+    SceneParams scene = small_hanging_sheet();
+    scene.solver.method = row.name;
+    scene.pins = { { "edge", "top_edge", {}, {} } };
+    Simulation simulation = simulation_of(scene);
+    const Vectors held = simulation.pins().find("edge")->held;
+    constexpr double tick = 1.0 / 30.0;
+    Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
+    placement.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()));
+    for (int k = 1; k <= 3; ++k)
+    {
+      const double end = k * tick;
+      placement.pretranslate(Eigen::Vector3d(0.0, 0.01, 0.02));
+      ASSERT_TRUE(simulation.carry("edge", placement, Eigen::Vector3d::Zero(), end));
+      ASSERT_TRUE(simulation.advance_to(end)) << simulation.divergence_report();
+      const Eigen::RowVector3d turning = Eigen::RowVector3d(0.0, 0.0, k == 1 ? 0.1 / tick : 0.0);
+      const Eigen::RowVector3d rising = Eigen::RowVector3d(0.0, 0.01, 0.02) / tick;
+      for (int i = 0; i < held.rows(); ++i)
+      {
+        const Eigen::RowVector3d arm = (placement.linear() * held.row(i).transpose()).transpose();
+        const Eigen::RowVector3d place = arm + placement.translation().transpose();
+        EXPECT_LT((simulation.state().positions.row(i) - place).norm(), 1e-13) << "node " << i << ", tick " << k;
+        EXPECT_LT((simulation.state().velocities.row(i) - turning.cross(arm) - rising).norm(), 1e-11)
+            << "node " << i << ", tick " << k;
+      }
+    }
+    const Eigen::RowVector3d let_go = simulation.state().velocities.row(3);
+    simulation.release("edge");
+    EXPECT_EQ(simulation.state().velocities.row(3), let_go);
+  }
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  EXPECT_FALSE(simulation.carry("nobody", Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0.1));
 }
 
 TEST(Simulation, WindSetOnTheWayBlowsFromThenOn)

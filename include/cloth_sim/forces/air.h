@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "cloth_sim/forces/gusts.h"
 #include "cloth_sim/model/cloth_model.h"
 
 namespace cloth
@@ -11,15 +12,17 @@ struct AirProperties
 {
   double viscous_damping = 0.3;                    ///< N s/m per m2 of sheet
   double wind_coupling = 1.0;                      ///< N s/m per m2 of sheet
-  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  ///< u, the air's velocity, m/s
+  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  ///< the air's velocity without gusts, m/s
+  GustProperties gusts;
 };
 
 /// The air's force on each node (Provot 1995, section 3.2):
 ///
 ///   -C_dis v_i  +  C_vi (n_i . (u - v_i)) n_i
 ///
-/// C_dis and C_vi are `viscous_damping` and `wind_coupling` times the node's area, n_i its normal (`node_normals`).
-/// Without coupling no normal is ever computed. A chain has no normals and feels viscous damping only.
+/// C_dis and C_vi are `viscous_damping` and `wind_coupling` times the node's area, n_i its normal (`node_normals`), u
+/// the wind at the time, gusts included. Without coupling no normal is ever computed. A chain has no normals and feels
+/// viscous damping only.
 class Air
 {
 public:
@@ -34,12 +37,25 @@ public:
     properties_.wind = wind;
   }
 
+  /// u at `time` (s), m/s.
+  Eigen::Vector3d wind_at(double time) const
+  {
+    return properties_.wind + gusts_.at(time);
+  }
+  /// The wind is never faster, m/s.
+  double top_speed() const
+  {
+    return properties_.wind.norm() + gusts_.top_speed();
+  }
+
   /// Adds the force above, in N, to every node.
-  void add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& forces) const;
+  void add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
+                  Vectors& forces) const;
 
   /// Solves (m + h C_dis) v + h C_vi (n . (v - u)) n = m v_given for every node, in closed form: the air of an
-  /// implicit step of length h, positions held. Velocities in m/s, h in s.
-  void damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const;
+  /// implicit step of length h that ends at `time` (s), positions held. Velocities in m/s, h in s.
+  void damp_implicitly(const ClothModel& model, double time, const Vectors& positions, double h,
+                       Vectors& velocities) const;
 
   /// Adds -df/dv u = C_dis u + C_vi (n . u) n to every node, in N for `u` in m/s; `normals` as `node_normals` has them
   /// where `is_coupled`, else not looked at. The derivative by the positions, through the normals, is left out: see
@@ -56,9 +72,11 @@ public:
 
 private:
   /// The normals, and n . (u - v) of every node.
-  void find_normal_speeds(const ClothModel& model, const Vectors& positions, const Vectors& velocities) const;
+  void find_normal_speeds(const ClothModel& model, double time, const Vectors& positions,
+                          const Vectors& velocities) const;
 
   AirProperties properties_;
+  Gusts gusts_;
   mutable Vectors normals_;
   mutable Eigen::ArrayXd normal_speeds_;
 };

@@ -51,6 +51,9 @@ public:
   /// The force on every node, N. `forces` is overwritten.
   void forces(double time, const Vectors& positions, const Vectors& velocities, Vectors& forces) const;
 
+  /// M^-1 f of every node, in m/s2: of pinned ones what they would do if they were let go. May be done in place.
+  void unheld_accelerations_of(const Vectors& forces, Vectors& accelerations) const;
+
   /// M^-1 f, in m/s2, zero for pinned nodes. May be done in place.
   void accelerations_of(const Vectors& forces, Vectors& accelerations) const;
 
