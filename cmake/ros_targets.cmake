@@ -10,7 +10,9 @@ add_library(cloth_ros STATIC
   src/ros/end_by_signal.cpp
   src/ros/errands.cpp
   src/ros/frames.cpp
+  src/ros/health.cpp
   src/ros/live_cloth.cpp
+  src/ros/live_keys.cpp
   src/ros/mesh_marker.cpp
   src/ros/messages.cpp
   src/ros/node_clock.cpp
@@ -30,6 +32,7 @@ add_library(cloth_ros STATIC
   src/ros/spring_marker.cpp
   src/ros/tick_clock.cpp
   src/ros/tick_statistics.cpp
+  src/ros/tuning.cpp
   src/ros/wind_request.cpp
   src/ros/wind_time_out.cpp
 )

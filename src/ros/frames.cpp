@@ -37,6 +37,7 @@ std::optional<Frames::Latest> Frames::latest(const std::string& source) const
   try
   {
     const auto found = transforms_.lookupTransform(target, source, ros::Time(0));
+    note_use(source, found.header.stamp);
     const auto& t = found.transform.translation;
     const auto& q = found.transform.rotation;
     return Latest{ Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized(),
@@ -56,6 +57,18 @@ Eigen::Isometry3d Frames::from(const std::string& source) const
     throw RefusedRequest("tf knows no transform from frame '" + source + "' to '" + frame_id() + "'");
   }
   return found->transform;
+}
+
+std::optional<Frames::Use> Frames::last_use() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return last_use_;
+}
+
+void Frames::note_use(const std::string& source, const ros::Time& stamp) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_use_ = Use{ source, stamp.isZero() ? std::nullopt : std::make_optional((ros::Time::now() - stamp).toSec()) };
 }
 
 }  // namespace cloth

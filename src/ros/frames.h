@@ -44,9 +44,22 @@ public:
   /// frame. Throws RefusedRequest where tf does not know the way.
   Eigen::Isometry3d from(const std::string& source) const;
 
+  /// A transform that was looked up and found.
+  struct Use
+  {
+    std::string frame;          ///< from which
+    std::optional<double> age;  ///< s, what it was old then; none: static
+  };
+
+  /// The last one; none: only the cloth's own frame was asked for so far.
+  std::optional<Use> last_use() const;
+
 private:
+  void note_use(const std::string& source, const ros::Time& stamp) const;
+
   mutable std::mutex mutex_;
   std::string frame_id_;
+  mutable std::optional<Use> last_use_;
   tf2::BufferCore& transforms_;
 };
 

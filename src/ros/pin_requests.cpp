@@ -17,6 +17,9 @@ namespace cloth
 namespace
 {
 
+/// Farther than any cloth, and near enough to reckon with, m.
+constexpr double farthest = 1e6;
+
 std::string node_in_words(int row, int col)
 {
   return "[" + std::to_string(row) + ", " + std::to_string(col) + "]";
@@ -28,6 +31,11 @@ Eigen::Vector3d point_of(const cloth_sim::Pin& request, const Frames& frames)
   if (!point.allFinite())
   {
     throw RefusedRequest("point is not finite");
+  }
+  if (point.lpNorm<Eigen::Infinity>() > farthest)
+  {
+    throw RefusedRequest("point is " + format_number(point.norm()) + " m away; allowed: up to " +
+                         format_number(farthest) + " along each axis");
   }
   return point;
 }

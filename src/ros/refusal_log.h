@@ -18,6 +18,8 @@ public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds quiet_time{ 5 };
   static constexpr size_t max_causes = 20;
+  /// Characters; of a longer text the beginning is warned.
+  static constexpr size_t longest_cause = 500;
 
   /// `warn` gets the text of each warning.
   explicit RefusalLog(std::function<void(const std::string&)> warn);

@@ -57,6 +57,37 @@ Simulation::Simulation(SimulationSetup setup)
   changed_from_outside();
 }
 
+Simulation Simulation::gone_over_to(SimulationSetup setup) const
+{
+  setup.pins = pins().all();
+  setup.start = state_;
+  Simulation next(std::move(setup));
+  next.keeps_within_limit_ = true;
+  next.last_step_ = last_step_;
+  next.divergence_ = divergence_;
+  next.counters_ = counters_;
+  next.measures_reactions_ = measures_reactions_;
+  next.measured_since_ = measured_since_;
+  next.velocities_before_ = velocities_before_;
+  next.impulses_ = impulses_;
+  const bool has_lower_limit =
+      !strain_limit_.active() || next.strain_limit_.properties().max_strain < strain_limit_.properties().max_strain;
+  if (next.strain_limit_.active() && has_lower_limit)
+  {
+    next.shorten_at_no_speed();
+  }
+  return next;
+}
+
+void Simulation::shorten_at_no_speed()
+{
+  constexpr int most_sweeps = 1000;
+  constexpr double in_no_hurry = std::numeric_limits<double>::infinity();
+  StrainLimit limit(model(), { strain_limit_.properties().max_strain, most_sweeps });
+  limit.apply(model(), pins(), in_no_hurry, state_);
+  changed_from_outside();
+}
+
 void Simulation::step(double h)
 {
   const double begin = state_.time;
@@ -80,7 +111,7 @@ void Simulation::step(double h)
   ++counters_.steps;
 }
 
-bool Simulation::advance_to(double time)
+bool Simulation::advance_to(double time, const std::function<bool()>& stops)
 {
   double longest = longest_step();
   while (!divergence_ && state_.time < time)
@@ -100,6 +131,10 @@ bool Simulation::advance_to(double time)
       take_equal_steps(time, longest);
     }
     keep_or_restore();
+    if (state_.time < time && stops && stops())
+    {
+      break;
+    }
     if (state_.time < time)
     {
       longest = std::min(longest, longest_step());
@@ -165,15 +200,20 @@ double Simulation::time_step() const
 
 double Simulation::longest_step() const
 {
-  if (given_time_step_ > 0.0)
+  if (method_row_->is_adaptive)
+  {
+    return given_time_step_ > 0.0 ? given_time_step_ : std::numeric_limits<double>::infinity();
+  }
+  return given_time_step_ > 0.0 && !keeps_within_limit_ ? given_time_step_ : limited_step();
+}
+
+double Simulation::limited_step() const
+{
+  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
+  if (given_time_step_ > 0.0 && given_time_step_ <= limit)
   {
     return given_time_step_;
   }
-  if (method_row_->is_adaptive)
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
   return std::isfinite(limit) ? limit_share * limit : unlimited_time_step;
 }
 

@@ -168,6 +168,7 @@ TEST_F(PinRequests, NonsenseIsRefusedAndChangesNothing)
   refused([](cloth_sim::Pin& pin) { pin.point.header.frame_id = "nowhere"; });
   refused([](cloth_sim::Pin& pin) { pin.point.header.frame_id = "/turned"; });
   refused([](cloth_sim::Pin& pin) { pin.point.point.z = infinity; });
+  refused([](cloth_sim::Pin& pin) { pin.point.point.z = -1e300; });
   request_.select = cloth_sim::Pin::RADIUS;
   request_.radius = 100.0;
   refused([](cloth_sim::Pin& pin) { pin.radius = infinity; });
@@ -184,8 +185,11 @@ TEST_F(PinRequests, WindIsTurnedButNotShifted)
   EXPECT_TRUE(wind_of(wind, frames_).isApprox(Eigen::Vector3d(0, 3, 0)));
   wind.header.frame_id = "";
   EXPECT_EQ(wind_of(wind, frames_), Eigen::Vector3d(3, 0, 0));
-  wind.vector.y = infinity;
-  EXPECT_THROW(wind_of(wind, frames_), RefusedRequest);
+  for (const double bad : { infinity, 1e300, 1001.0 })
+  {
+    wind.vector.y = bad;
+    EXPECT_THROW(wind_of(wind, frames_), RefusedRequest) << bad;
+  }
 }
 
 TEST_F(PinRequests, WaitInOrderAndTheLatestWindCounts)

@@ -220,11 +220,12 @@ std::vector<Edge> edges<SceneParams>()
     { "solver.compliance", { "-0.1", "1.1" }, { "0", "0.5", "1" } },
     { "solver.threads", { "-1", "65", "1.5" }, { "0", "1", "64" } },
     { "solver.time_step", { "-1", "1.0e-300", "9.0e-10" }, { "0", "1.0e-9", "1" } },
-    { "rate", { "0", "-1", "1000.001" }, { "1000", "0.1" } },
+    { "solver.tolerance", { "0", "-1", "9.0e-13" }, { "1.0e-12", "1" } },
+    { "rate", { "0", "-1", "9.0e-4", "1000.001" }, { "1000", "0.001" } },
     { "display.fabric_colour", { "[0, 0, 1.01]", "[-0.01, 0, 0]" }, { "[0, 1, 0.5]" } },
   };
   for (const char* const positive :
-       { "cloth.width", "cloth.height", "cloth.mass", "solver.tolerance", "tf_pins.top_speed", "air.gusts.time_scale" })
+       { "cloth.width", "cloth.height", "cloth.mass", "tf_pins.top_speed", "air.gusts.time_scale" })
   {
     list.push_back({ positive, zero_or_below, { "1.0e-300", "1" } });
   }
@@ -329,6 +330,38 @@ TYPED_TEST(ParameterTable, EveryKeyIsThereOnceAndIsExplained)
     EXPECT_TRUE(keys.insert(parameter.key).second) << parameter.key;
     EXPECT_FALSE(parameter.type.empty() || parameter.allowed.empty() || parameter.meaning.empty()) << parameter.key;
   }
+}
+
+TEST(ParameterTableLive, AreTheKeysOfTheInterface)
+{
+  const std::set<std::string> interface_keys = { "gravity",
+                                                 "springs.structural.stiffness",
+                                                 "springs.structural.damping",
+                                                 "springs.shear.stiffness",
+                                                 "springs.shear.damping",
+                                                 "springs.flex.stiffness",
+                                                 "springs.flex.damping",
+                                                 "strain_limit.max_strain",
+                                                 "strain_limit.sweeps",
+                                                 "air.viscous_damping",
+                                                 "air.wind_coupling",
+                                                 "air.wind",
+                                                 "solver.method",
+                                                 "solver.time_step",
+                                                 "solver.tolerance",
+                                                 "solver.iterations",
+                                                 "solver.compliance",
+                                                 "rate",
+                                                 "real_time_factor" };
+  std::set<std::string> keys;
+  for (const Parameter<SceneParams>& parameter : parameter_table())
+  {
+    if (parameter.live)
+    {
+      keys.insert(parameter.key);
+    }
+  }
+  EXPECT_EQ(keys, interface_keys);
 }
 
 TEST(ParameterTableWords, AreThoseOfTheInterface)

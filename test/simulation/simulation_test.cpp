@@ -306,6 +306,98 @@ TEST(Simulation, WindSetOnTheWayBlowsFromThenOn)
   EXPECT_GT(simulation.state().positions.col(1).mean(), before + 0.1);
 }
 
+TEST(Simulation, StopsOnTheWayWhenItIsToldToAndGoesOnFromThere)
+{
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  int asked = 0;
+  EXPECT_TRUE(simulation.advance_to(1.0, [&] { return ++asked == 3; }));
+  EXPECT_EQ(asked, 3);
+  const double reached = simulation.state().time;
+  EXPECT_GT(reached, 0.0);
+  EXPECT_LT(reached, 1.0);
+  EXPECT_FALSE(simulation.divergence());
+  EXPECT_TRUE(simulation.advance_to(1.0, [] { return false; }));
+  EXPECT_EQ(simulation.state().time, 1.0);
+}
+
+/// The cloth after 0.4 s, with a hand that has begun to carry a node.
+Simulation cloth_in_motion()
+{
+  Simulation simulation = simulation_of(small_hanging_sheet());
+  simulation.advance_to(0.3);
+  simulation.hold("hand", { 140 });
+  simulation.carry("hand", { 0.1, 0.3, 1.0 }, 0.2);
+  simulation.advance_to(0.4);
+  return simulation;
+}
+
+SimulationSetup other_properties()
+{
+  SceneParams scene = small_hanging_sheet();
+  SimulationSetup setup;
+  setup.model = make_sheet(scene.sheet);
+  setup.gravity = { 0.0, 1.0, -5.0 };
+  setup.method = find_method("symplectic_euler");
+  setup.start.positions = setup.start.velocities = Vectors::Zero(setup.model.nodes(), 3);
+  return setup;
+}
+
+TEST(Simulation, GoesOverToOtherPropertiesWithoutAJerk)
+{
+  const Simulation before = cloth_in_motion();
+  Simulation after = before.gone_over_to(other_properties());
+  EXPECT_EQ(after.state().positions, before.state().positions);
+  EXPECT_EQ(after.state().velocities, before.state().velocities);
+  EXPECT_EQ(after.state().time, before.state().time);
+  EXPECT_EQ(after.counters().steps, before.counters().steps);
+  EXPECT_EQ(after.dynamics().gravity(), Eigen::Vector3d(0.0, 1.0, -5.0));
+  EXPECT_STREQ(after.method().name, "symplectic_euler");
+  ASSERT_EQ(after.pins().all().size(), 3u);
+  ASSERT_TRUE(after.advance_to(0.5));
+  EXPECT_TRUE(after.state().positions.row(140).isApprox(Eigen::RowVector3d(0.1, 0.3, 1.0), 1e-12))
+      << "the hand gets where it was sent";
+}
+
+TEST(Simulation, ALowerStrainLimitGivesNoSpeed)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.strain_limit.max_strain = 0.0;
+  Simulation simulation = simulation_of(scene);
+  simulation.advance_to(0.5);
+  ASSERT_GT(max_strain(simulation.model(), simulation.state().positions), 0.03);
+  SimulationSetup setup = other_properties();
+  setup.strain_limit = { 0.02, 30 };
+  setup.time_step = 1e-5;
+  Simulation limited = simulation.gone_over_to(setup);
+  EXPECT_LT(max_strain(limited.model(), limited.state().positions), 0.0205);
+  EXPECT_EQ(limited.state().velocities, simulation.state().velocities);
+  EXPECT_TRUE(limited.advance_to(0.51)) << limited.divergence_report();
+}
+
+TEST(Simulation, GoneOverItKeepsAGivenStepWithinTheLimit)
+{
+  const Simulation before = cloth_in_motion();
+  SimulationSetup setup = other_properties();
+  setup.time_step = 1.0;
+  const Simulation stiff = before.gone_over_to(setup);
+  EXPECT_NEAR(stiff.time_step(), Simulation::limit_share * stiff.stability_limit(), 1e-3 * stiff.stability_limit());
+  setup.time_step = 0.5 * stiff.stability_limit();
+  EXPECT_EQ(before.gone_over_to(setup).time_step(), setup.time_step);
+}
+
+TEST(Simulation, GoneOverItIsStillDiverged)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.solver.method = "symplectic_euler";
+  scene.solver.time_step = 0.02;
+  scene.strain_limit.max_strain = 0.0;
+  Simulation simulation = simulation_of(scene);
+  ASSERT_FALSE(simulation.advance_to(5.0));
+  Simulation other = simulation.gone_over_to(other_properties());
+  EXPECT_TRUE(other.divergence());
+  EXPECT_FALSE(other.advance_to(6.0));
+}
+
 TEST(Simulation, OscillatingPinsAreWhereTheFormulaPutsThem)
 {
   for (const MethodRow& row : methods())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,10 +70,16 @@ public:
   /// Throws std::invalid_argument where the setup's sizes do not fit together or no method is named.
   explicit Simulation(SimulationSetup setup);
 
+  /// The same cloth as it is now with the properties of `setup`, whose pins and start count for nothing: state, pins,
+  /// counters and a divergence carry on; what is stretched beyond a lower strain limit is shortened, and gains no
+  /// speed. Its step never exceeds the stability limit, also where one is given. Throws what the constructor throws.
+  Simulation gone_over_to(SimulationSetup setup) const;
+
   /// Advances to `time` (s) in equal steps, as few as the time step allows; where no step is given and the stability
   /// limit falls on the way, the rest of the way is divided anew. An adaptive method divides the way itself. False: the
-  /// simulation has diverged, and holds the last good state.
-  bool advance_to(double time);
+  /// simulation has diverged, and holds the last good state. `stops`, where given, is asked every now and then; once it
+  /// says so the cloth stays where it has got to.
+  bool advance_to(double time, const std::function<bool()>& stops = {});
 
   const ClothModel& model() const
   {
@@ -147,11 +154,13 @@ private:
   static constexpr int steps_between_checks = 64;
 
   double longest_step() const;
+  double limited_step() const;
   void step(double h);
   void take_equal_steps(double time, double longest);
   void take_adaptive_steps(double time, double longest);
   void keep_or_restore();
   void changed_from_outside();
+  void shorten_at_no_speed();
   void pins_sent_elsewhere();
 
   Dynamics dynamics_;
@@ -159,6 +168,7 @@ private:
   const MethodRow* method_row_;
   std::unique_ptr<Method> method_;
   double given_time_step_;
+  bool keeps_within_limit_ = false;  ///< a given step is cut to what is stable
   double last_step_ = 0.0;
   ClothState state_;
   ClothState last_good_;
