@@ -144,7 +144,6 @@ public:
                                                                       { "air_viscous_damping", 5 },
                                                                       { "air_wind_coupling", 5 },
                                                                       { "air_wind_x", 20 },
-                                                                      { "air_gusts_strength", 5 },
                                                                       { "gravity_y", 20 },
                                                                       { "gravity_z", 20 },
                                                                       { "solver_time_step", 0.01 },
