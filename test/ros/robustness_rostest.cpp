@@ -342,6 +342,22 @@ TEST_F(Robustness, OverloadIsCountedAndTheClothGoesOnTickByTick)
   }
 }
 
+TEST_F(Robustness, AfterAResetOverrunsAreCountedAnewAndNoTickIsLostUncounted)
+{
+  NodeProcess node({ "_rate:=50", "_cloth/rows:=16", "_cloth/cols:=16" });
+  ASSERT_TRUE(wait_for_node());
+  // Overruns amid the simulated times that come again after the reset.
+  ASSERT_TRUE(ledger_.states().wait_for_one([](const ClothState& state) { return state.sim_time > 2.0; }));
+  ASSERT_TRUE(Change().set("solver_time_step", 1e-6).ask());
+  ASSERT_TRUE(ledger_.stats().wait_for_one([](const ClothStats& stats) { return stats.overruns > 50; }));
+  ASSERT_TRUE(Change().set("solver_time_step", 0.0).ask());
+  ASSERT_TRUE(ledger_.states().wait_for_one([](const ClothState& state) { return state.sim_time > 5.0; }));
+  ASSERT_TRUE(trigger("reset").success);
+  ledger_.open();
+  EXPECT_LT(ledger_.stats().last().overruns, 50u);
+  ledger_.expect_balance();
+}
+
 TEST_F(Robustness, ATickThatDoesNotEndIsShownAndTakenBack)
 {
   Listener<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");

@@ -73,30 +73,36 @@ private:
     std::uint32_t overruns = 0;
   };
 
-  /// One between two stats that tell of the same overruns.
+  /// A state that was due after the call of this: what is on its way from before a reset does not count.
   std::optional<Entry> entry()
   {
-    if (!stats_.wait_for_more(1))
-    {
-      return std::nullopt;
-    }
-    cloth_sim::ClothStats before = stats_.last();
-    const bool is_quiet = stats_.wait_for_one([&](const cloth_sim::ClothStats& stats) {
-      const bool same = stats.overruns == before.overruns && stats.sim_time > before.sim_time;
-      before = same ? before : stats;
-      return same;
+    const ros::Time since = ros::Time::now();
+    std::optional<Entry> found;
+    wait_until([&] {
+      found = entry_since(since);
+      return found.has_value();
     });
-    const double end = stats_.last().sim_time;
-    const auto reached = [&] { return !state_.all().empty() && state_.last().sim_time >= end; };
-    if (!is_quiet || !wait_until(reached))
+    return found;
+  }
+
+  /// A state between two stats that tell of the same overruns, if the three are there.
+  std::optional<Entry> entry_since(const ros::Time& since) const
+  {
+    const auto& stats = stats_.all();
+    for (size_t i = 1; i < stats.size(); ++i)
     {
-      return std::nullopt;
-    }
-    for (const cloth_sim::ClothState& state : state_.all())
-    {
-      if (state.sim_time > before.sim_time && state.sim_time <= end)
+      const cloth_sim::ClothStats& before = stats[i - 1];
+      const cloth_sim::ClothStats& after = stats[i];
+      if (before.header.stamp < since || before.overruns != after.overruns)
       {
-        return Entry{ state.header.stamp, state.sim_time, before.overruns };
+        continue;
+      }
+      for (const cloth_sim::ClothState& state : state_.all())
+      {
+        if (state.header.stamp >= since && state.sim_time > before.sim_time && state.sim_time <= after.sim_time)
+        {
+          return Entry{ state.header.stamp, state.sim_time, before.overruns };
+        }
       }
     }
     return std::nullopt;
