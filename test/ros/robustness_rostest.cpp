@@ -70,38 +70,26 @@ size_t pinned_nodes(const ClothState& state)
   return static_cast<size_t>(std::count(state.flags.begin(), state.flags.end(), ClothState::PINNED));
 }
 
-class Robustness : public testing::Test
+/// Whatever has been asked for: back to a cloth that any computer is fast enough for.
+Change calm()
 {
-protected:
-  /// Without a strain limit, which no sheet can keep whose pins are drawn farther apart than it allows.
-  static std::vector<std::string> sheet()
-  {
-    return { "_rate:=50", "_cloth/rows:=8", "_cloth/cols:=8", "_cloth/ripple:=0.02", "_strain_limit/max_strain:=0" };
-  }
+  return Change()
+      .set("solver_method", "auto")
+      .set("solver_time_step", 0.0)
+      .set("solver_compliance", 1.0)
+      .set("springs_structural_stiffness", 100.0)
+      .set("springs_shear_stiffness", 100.0)
+      .set("springs_structural_damping", 0.0)
+      .set("springs_shear_damping", 0.0)
+      .set("springs_flex_damping", 0.0)
+      .set("air_viscous_damping", 1.0);
+}
 
-  bool wait_for_node()
-  {
-    return wait_until([&] {
-      return pins_.getNumSubscribers() > 0 && winds_.getNumSubscribers() > 0 && points_.getNumSubscribers() > 0 &&
-             feedback_.getNumSubscribers() > 0 && ledger_.states().all().size() > 2;
-    });
-  }
-
-  /// Waits until what was sent is there, and a tick after it.
-  bool wait_for_marked_tick()
-  {
-    pins_.publish(pin(PinMessage::PIN, "mark", size - 1, size / 2));
-    const size_t mark = (size - 1) * size + size / 2;
-    return ledger_.states().wait_for_one([=](const ClothState& state) { return state.flags[mark] != 0; });
-  }
-
-  ros::NodeHandle node_;
-  TickLedger ledger_{ rate };
-  ros::Publisher pins_ = node_.advertise<PinMessage>("/cloth_node/pin", 5000);
-  ros::Publisher points_ = node_.advertise<geometry_msgs::PointStamped>("/cloth_node/pin_point", 5000);
-  ros::Publisher winds_ = node_.advertise<Vector3Stamped>("/cloth_node/wind", 5000);
-  ros::Publisher feedback_ = node_.advertise<InteractiveMarkerFeedback>("/cloth_node/pin_handles/feedback", 5000);
-};
+/// How many periods lie between two states, by the numbers that the node gave them: some may be lost on the way.
+int periods_between(const ClothState& earlier, const ClothState& later)
+{
+  return static_cast<int>(later.header.seq - earlier.header.seq);
+}
 
 /// Random requests, the same in every run.
 class Requests
@@ -186,18 +174,37 @@ private:
   std::mt19937 random_{ 1 };
 };
 
-TEST_F(Robustness, AThousandRandomRequestsLeaveAFiniteClothAndLoseNoTickUncounted)
+class Robustness : public testing::Test
 {
-  NodeProcess node(sheet());
-  ASSERT_TRUE(wait_for_node());
-  ledger_.open();
-  Requests requests;
-  for (int i = 0; i < 1000; ++i)
+protected:
+  /// Without a strain limit, which no sheet can keep whose pins are drawn farther apart than it allows.
+  static std::vector<std::string> sheet()
+  {
+    return { "_rate:=50", "_cloth/rows:=8", "_cloth/cols:=8", "_cloth/ripple:=0.02", "_strain_limit/max_strain:=0" };
+  }
+
+  bool wait_for_node()
+  {
+    return wait_until([&] {
+      return pins_.getNumSubscribers() > 0 && winds_.getNumSubscribers() > 0 && points_.getNumSubscribers() > 0 &&
+             feedback_.getNumSubscribers() > 0 && ledger_.states().all().size() > 2;
+    });
+  }
+
+  /// Waits until what was sent is there, and a tick after it.
+  bool wait_for_marked_tick()
+  {
+    pins_.publish(pin(PinMessage::PIN, "mark", size - 1, size / 2));
+    const size_t mark = (size - 1) * size + size / 2;
+    return ledger_.states().wait_for_one([=](const ClothState& state) { return state.flags[mark] != 0; });
+  }
+
+  void send_one_of(Requests& requests)
   {
     switch (requests.integer(0, 3))
     {
       case 0:
-        ASSERT_TRUE(requests.some_change().ask()) << node.output();
+        ASSERT_TRUE(requests.some_change().ask());
         break;
       case 1:
         winds_.publish(requests.some_wind());
@@ -207,26 +214,43 @@ TEST_F(Robustness, AThousandRandomRequestsLeaveAFiniteClothAndLoseNoTickUncounte
     }
     ros::getGlobalCallbackQueue()->callAvailable();
   }
-  // Whatever they have led to: back to a cloth that any computer is fast enough for.
-  ASSERT_TRUE(Change()
-                  .set("solver_method", "auto")
-                  .set("solver_time_step", 0.0)
-                  .set("solver_compliance", 1.0)
-                  .set("springs_structural_stiffness", 100.0)
-                  .set("springs_shear_stiffness", 100.0)
-                  .set("springs_structural_damping", 0.0)
-                  .set("springs_shear_damping", 0.0)
-                  .set("springs_flex_damping", 0.0)
-                  .set("air_viscous_damping", 1.0)
-                  .ask());
-  ledger_.expect_finite_states();
-  if (node.output().find("diverged") != std::string::npos)
+
+  ros::NodeHandle node_;
+  TickLedger ledger_{ rate };
+  ros::Publisher pins_ = node_.advertise<PinMessage>("/cloth_node/pin", 5000);
+  ros::Publisher points_ = node_.advertise<geometry_msgs::PointStamped>("/cloth_node/pin_point", 5000);
+  ros::Publisher winds_ = node_.advertise<Vector3Stamped>("/cloth_node/wind", 5000);
+  ros::Publisher feedback_ = node_.advertise<InteractiveMarkerFeedback>("/cloth_node/pin_handles/feedback", 5000);
+};
+
+TEST_F(Robustness, AThousandRandomRequestsLeaveAFiniteClothAndLoseNoTickUncounted)
+{
+  NodeProcess node(sheet());
+  ASSERT_TRUE(wait_for_node());
+  Requests requests;
+  int balanced = 0;
+  for (int round = 0; round < 5; ++round)
   {
-    // Some of what was asked for may be beyond a method; that is said, and undone.
-    ASSERT_TRUE(trigger("reset").success);
+    SCOPED_TRACE(round);
     ledger_.open();
+    const size_t said_before = node.output().size();
+    for (int i = 0; i < 200; ++i)
+    {
+      ASSERT_NO_FATAL_FAILURE(send_one_of(requests)) << node.output();
+    }
+    ASSERT_TRUE(calm().ask());
+    ASSERT_TRUE(ledger_.states().wait_for_more(2));
+    if (node.output().find("diverged", said_before) != std::string::npos)
+    {
+      // Some of what was asked for may be beyond a method; that is said, no simulated time passes until it is undone.
+      ASSERT_TRUE(trigger("reset").success);
+      continue;
+    }
+    ledger_.expect_balance();
+    ++balanced;
   }
-  ledger_.expect_balance();
+  EXPECT_GT(balanced, 0);
+  ledger_.expect_finite_states();
 }
 
 TEST_F(Robustness, AFloodOfWindAndPinsLosesNoTickUncounted)
@@ -244,8 +268,11 @@ TEST_F(Robustness, AFloodOfWindAndPinsLosesNoTickUncounted)
     kilohertz.sleep();
   }
   winds_.publish(wind(0, 0, 0));
-  pins_.publish(pin(PinMessage::RELEASE, ""));
-  ASSERT_TRUE(ledger_.states().wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 0; }));
+  // Again and again: the node refuses a pin where a thousand wait.
+  ASSERT_TRUE(wait_until([&] {
+    pins_.publish(pin(PinMessage::RELEASE, ""));
+    return pinned_nodes(ledger_.states().last()) == 0;
+  }));
   EXPECT_EQ(node.output().find("diverged"), std::string::npos) << node.output();
   ledger_.expect_balance();
   ledger_.expect_finite_states();
@@ -309,17 +336,20 @@ TEST_F(Robustness, EveryRealTimeFactorTakesTheClothOnByItsShare)
     ASSERT_TRUE(Change().set("real_time_factor", factor).ask());
     const double period = (factor == 0.0 ? 1.0 : factor) / rate;
     Listener<ClothState>& states = ledger_.states();
-    double before = states.last().sim_time;
+    ClothState before = states.last();
     ASSERT_TRUE(states.wait_for_one([&](const ClothState& state) {
-      const double gap = state.sim_time - before;
-      before = state.sim_time;
-      return std::abs(gap - period) < 1e-9;
+      const double gap = state.sim_time - before.sim_time;
+      const int periods = periods_between(before, state);
+      before = state;
+      return std::abs(gap - periods * period) < 1e-9;
     }));
     states.forget();
     ASSERT_TRUE(states.wait_for(10));
     for (size_t i = 1; i < 10; ++i)
     {
-      EXPECT_NEAR(states.all()[i].sim_time - states.all()[i - 1].sim_time, period, 1e-9);
+      const ClothState& before_it = states.all()[i - 1];
+      const ClothState& state = states.all()[i];
+      EXPECT_NEAR(state.sim_time - before_it.sim_time, periods_between(before_it, state) * period, 1e-9);
     }
   }
   ledger_.expect_finite_states();
@@ -338,7 +368,7 @@ TEST_F(Robustness, OverloadIsCountedAndTheClothGoesOnTickByTick)
   const auto& states = ledger_.states().all();
   for (size_t i = 1; i < states.size(); ++i)
   {
-    EXPECT_NEAR(states[i].sim_time - states[i - 1].sim_time, 1.0 / rate, 1e-9);
+    EXPECT_NEAR(states[i].sim_time - states[i - 1].sim_time, periods_between(states[i - 1], states[i]) / rate, 1e-9);
   }
 }
 
