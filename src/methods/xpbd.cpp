@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/inverse_root.h"
+#include "cloth_sim/model/spring_rows.h"
+#include "cloth_sim/model/wide_vectors.h"
+
 #include "rows.h"
 
 namespace cloth
@@ -15,8 +19,8 @@ namespace
 ///   lambda = -(|l| - l0 + gamma h n . (v_j - v_i)) / ((1 + gamma) (1/m_i + 1/m_j) + 1/(k h^2)),  gamma = c/(k h)
 ///
 /// and its ends move by -+ lambda n/m at once, Gauss-Seidel's way. With the compliance times 0 this is position-based
-/// dynamics: every spring is made as long as it is at rest, whatever its stiffness. Velocities are corrected along with
-/// the positions, which is v = (x' - x)/h without its rounding error.
+/// dynamics: every spring is made as long as it is at rest, whatever its stiffness. The velocities follow from the
+/// positions, v = (x' - x)/h.
 class ExtendedPositionBasedDynamics : public Method
 {
 public:
@@ -27,22 +31,23 @@ public:
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
     const ClothModel& model = dynamics.model();
-    inverse_masses_ = model.masses.cwiseInverse();
+    inverse_masses_.resize(model.nodes());
+    accelerations_.resize(model.nodes(), 3);
     for (int i = 0; i < model.nodes(); ++i)
     {
-      inverse_masses_[i] = dynamics.pins().holds(i) ? 0.0 : inverse_masses_[i];
+      inverse_masses_[i] = dynamics.pins().holds(i) ? 0.0 : 1.0 / model.masses[i];
     }
     const double begin = state.time;
     const double substep = h / substeps_;
     for (int s = 1; s <= substeps_; ++s)
     {
+      before_ = state.positions;
       predict(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       dynamics.pins().impose(state.time, state.positions, state.velocities);
-      for (const SpringBatch& batch : model.springs)
-      {
-        project(batch, substep, state);
-      }
+      project(model, substep, state.positions);
+      state.velocities = (state.positions - before_) / substep;
+      dynamics.pins().impose_velocities(state.time, state.velocities);
     }
     StepReport report;
     report.force_evaluations = substeps_;
@@ -52,28 +57,36 @@ public:
 private:
   void predict(const Dynamics& dynamics, double h, ClothState& state)
   {
-    dynamics.external_forces_on_all(state.time, accelerations_);
+    dynamics.external_forces(state.time, all_nodes(dynamics.model()), accelerations_);
     dynamics.accelerations_of(accelerations_, accelerations_);
     state.velocities += h * accelerations_;
     dynamics.air().damp_implicitly(dynamics.model(), state.positions, h, state.velocities);
     state.positions += h * state.velocities;
   }
 
-  /// In two colours: springs whose first ends lie in every second stretch of `offset` nodes share no node. The order is
-  /// always the same, and so is the result.
-  void project(const SpringBatch& batch, double h, ClothState& state) const
+  /// Row of nodes by row of nodes, so that a row's springs of all batches are done while it is in the nearest cache.
+  void project(const ClothModel& model, double h, Vectors& positions)
   {
-    const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h), compliance_ / (batch.stiffness * h * h),
-                       batch.rest_length };
-    for (const int colour : { 0, 1 })
-    {
-      for_each_spring(batch, [&](int i, int j) {
-        if (i / batch.offset % 2 == colour)
+    in_widest_vectors([&](auto arithmetic) {
+      for (int r = 0; r < model.rows; ++r)
+      {
+        for (const SpringBatch& batch : model.springs)
         {
-          project(i, j, gains, h, state);
+          for (int done = 0; r < batch.rows && done < batch.cols; done += spring_row_size)
+          {
+            const int node = batch.first + r * batch.row_stride + done;
+            const int n = std::min(spring_row_size, batch.cols - done);
+            const SpringRow row(inverse_masses_.data(), positions, node, batch.offset, n);
+            const SpringRow before(inverse_masses_.data(), before_, node, batch.offset, n);
+            const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h),
+                               compliance_ / (batch.stiffness * h * h), batch.rest_length };
+            in_turns(batch.offset, n, [&](auto&& is_chosen) {
+              project<arithmetic.has_fused_multiply_add>(row, before, gains, is_chosen);
+            });
+          }
         }
-      });
-    }
+      }
+    });
   }
 
   struct Gains
@@ -83,33 +96,55 @@ private:
     double rest_length;
   };
 
-  void project(int i, int j, const Gains& gains, double h, ClothState& state) const
+  template <bool fused, typename IsChosen>
+  static void project(const SpringRow& row, const SpringRow& before, const Gains& gains, IsChosen&& is_chosen)
   {
-    const Eigen::RowVector3d l = state.positions.row(j) - state.positions.row(i);
-    const double length = l.norm();
-    const double inverse_masses = inverse_masses_[i] + inverse_masses_[j];
-    if (length == 0.0 || inverse_masses == 0.0)
+    RowChanges changes;
+    const double rest_length = gains.rest_length;
+    const double damping = gains.damping;
+    const double compliance = gains.compliance;
+    const double* const w_i = row.w_i;
+    const double* const w_j = row.w_j;
+    const double* const x_i = row.i[0];
+    const double* const y_i = row.i[1];
+    const double* const z_i = row.i[2];
+    const double* const x_j = row.j[0];
+    const double* const y_j = row.j[1];
+    const double* const z_j = row.j[2];
+    const double* const before_x_i = before.i[0];
+    const double* const before_y_i = before.i[1];
+    const double* const before_z_i = before.i[2];
+    const double* const before_x_j = before.j[0];
+    const double* const before_y_j = before.j[1];
+    const double* const before_z_j = before.j[2];
+    const int n = row.n;
+#pragma GCC ivdep
+    for (int k = 0; k < n; ++k)
     {
-      return;
+      const double x = x_j[k] - x_i[k];
+      const double y = y_j[k] - y_i[k];
+      const double z = z_j[k] - z_i[k];
+      const double square = x * x + y * y + z * z;
+      const double inverse = inverse_root<fused>(square);
+      const double w = w_i[k] + w_j[k];
+      const double lengthening =
+          inverse * (x * (x - before_x_j[k] + before_x_i[k]) + y * (y - before_y_j[k] + before_y_i[k]) +
+                     z * (z - before_z_j[k] + before_z_i[k]));
+      const double resistance = (1.0 + damping) * w + compliance;
+      const double lambda = (square * inverse - rest_length + damping * lengthening) / resistance;
+      const double part = is_chosen(k) && w > 0.0 ? lambda * inverse : 0.0;
+      changes.x[k] = part * x;
+      changes.y[k] = part * y;
+      changes.z[k] = part * z;
     }
-    const Eigen::RowVector3d n = l / length;
-    const double approach = h * n.dot(state.velocities.row(j) - state.velocities.row(i));
-    const double lambda = -(length - gains.rest_length + gains.damping * approach) /
-                          ((1.0 + gains.damping) * inverse_masses + gains.compliance);
-    move(i, -lambda * inverse_masses_[i] * n, h, state);
-    move(j, lambda * inverse_masses_[j] * n, h, state);
-  }
-
-  static void move(int i, const Eigen::RowVector3d& way, double h, ClothState& state)
-  {
-    state.positions.row(i) += way;
-    state.velocities.row(i) += way / h;
+    move_ends(row, changes);
   }
 
   int substeps_;
   double compliance_;
   Eigen::VectorXd inverse_masses_;
   Vectors accelerations_;
+  Vectors before_;
 };
 
 }  // namespace

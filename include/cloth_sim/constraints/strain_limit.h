@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cloth_sim/constraints/pins.h"
@@ -9,11 +10,21 @@
 namespace cloth
 {
 
+/// How the springs that are too long are shortened.
+enum class LimitSolver
+{
+  tensions,     ///< the shortest correction, from the tensions of the step before: few passes, whatever the grid
+  plain_sweeps  ///< spring after spring, as Provot describes it: more passes than the grid is wide
+};
+
 struct StrainLimitProperties
 {
   double max_strain = 0.1;  ///< critical deformation rate tau_c; 0: no limit
   int sweeps = 30;          ///< most passes over the springs after a step
+  LimitSolver solver = LimitSolver::tensions;
 };
+
+class Shortening;
 
 /// Provot's cure for super-elasticity (1995, section 4): after the positions have moved, every structural and shear
 /// spring whose strain |l|/l0 - 1 is above max_strain is shortened along itself to exactly max_strain. Its ends share
@@ -24,9 +35,12 @@ class StrainLimit
 {
 public:
   /// A strain this much above max_strain, relative to it, counts as reached.
-  static constexpr double tolerance = 5e-4;
+  static constexpr double tolerance = 0.02;
 
   StrainLimit(const ClothModel& model, const StrainLimitProperties& properties);
+  StrainLimit(StrainLimit&&) noexcept;
+  StrainLimit& operator=(StrainLimit&&) noexcept;
+  ~StrainLimit();
 
   /// False: max_strain is 0, and `apply` must not be called.
   bool active() const
@@ -51,6 +65,7 @@ public:
 
 private:
   StrainLimitProperties properties_;
+  std::unique_ptr<Shortening> shortening_;
   std::vector<double> inverse_masses_;
   Vectors uncorrected_;
 };

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "cloth_sim/constraints/strain_limit.h"
+
+namespace cloth
+{
+
+/// The batches of structural and shear springs.
+std::vector<SpringBatch> limited_batches(const ClothModel& model);
+
+/// A way to shorten the structural and shear springs of one model that are too long.
+class Shortening
+{
+public:
+  virtual ~Shortening() = default;
+
+  /// Corrects the positions (m), in at most so many passes over the springs. Nodes of
+  /// inverse mass 0 (1/kg) stay.
+  virtual StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions) = 0;
+};
+
+}  // namespace cloth
