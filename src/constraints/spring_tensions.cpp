@@ -228,6 +228,7 @@ StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_m
     report.moved = true;
     ++report.sweeps;
   }
+  margin_ = std::clamp(margin_ * (report.sweeps > few ? margin_growth : margin_decay), least_margin, most_margin);
   return report;
 }
 
@@ -237,10 +238,9 @@ std::array<double*, 3> SpringTensions::tensions_of(Batch& batch, const Block& bl
            batch.tensions[2].data() + block.first };
 }
 
-/// Springs are shortened to a little less than the limit.
 double SpringTensions::target_length(const Batch& batch) const
 {
-  return batch.springs.rest_length * (1.0 + max_strain_ * (1.0 - margin));
+  return batch.springs.rest_length * (1.0 + max_strain_ * (1.0 - margin_));
 }
 
 // The dual objective, sum of p . l - |p| l_max less half the sum of m |shift|^2, is 0 without tensions; along the

@@ -34,9 +34,14 @@ public:
   StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions) override;
 
 private:
-  /// Springs are shortened to this much below max_strain, relative to it, so that fewer passes find them within
-  /// StrainLimit::tolerance above it.
-  static constexpr double margin = 0.1;
+  /// Springs are shortened to somewhat less than the limit, by this part of max_strain, so that fewer passes find them
+  /// within StrainLimit::tolerance above it: the margin grows while steps need more passes than `few` and dies away
+  /// while they do not, so that at rest springs are as long as the limit says. Within a step it stays the same.
+  static constexpr double least_margin = 0.005;
+  static constexpr double most_margin = 0.15;
+  static constexpr double margin_growth = 1.2;
+  static constexpr double margin_decay = 0.98;
+  static constexpr int few = 4;
   /// The most by which tensions grow before a step's passes.
   static constexpr double most_growth = 2.0;
 
@@ -75,6 +80,7 @@ private:
 
   int rows_;
   double max_strain_;
+  double margin_ = least_margin;
   std::vector<Batch> batches_;
   std::vector<long> moved_at_;  ///< for each block of nodes
   long now_ = 0;                ///< counts passes
