@@ -59,7 +59,7 @@ void step(benchmark::State& state, const Case& measured)
 {
   SheetProperties sheet = measured.sheet;
   sheet.rows = sheet.cols = measured.nodes_a_side;
-  Dynamics dynamics(make_sheet(sheet), { 0.0, 0.0, -9.81 }, { 0.3, measured.wind_coupling, Eigen::Vector3d::Zero() });
+  Dynamics dynamics(make_sheet(sheet), { 0.0, 0.0, -9.81 }, { 0.3, measured.wind_coupling, Eigen::Vector3d::Zero(), {} });
   const ClothModel& model = dynamics.model();
   ClothState cloth = rippled(model);
   const std::vector<int> corners{ 0, model.cols - 1 };

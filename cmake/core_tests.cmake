@@ -30,6 +30,7 @@ cloth_add_test(model
 cloth_add_test(forces
   test/forces/air_test.cpp
   test/forces/gravity_test.cpp
+  test/forces/gusts_test.cpp
   test/forces/spring_jacobian_test.cpp
   test/forces/springs_test.cpp
 )
@@ -51,6 +52,7 @@ cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp
   test/simulation/failure_test.cpp
+  test/simulation/reactions_test.cpp
   test/simulation/settle_test.cpp
   test/simulation/simulation_test.cpp
   test/simulation/statics_test.cpp

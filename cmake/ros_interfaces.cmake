@@ -1,5 +1,8 @@
 # Messages, and what the package offers to others. Before any target, so that catkin's output folders apply to all.
 find_package(catkin REQUIRED COMPONENTS
+  diagnostic_msgs
+  diagnostic_updater
+  dynamic_reconfigure
   geometry_msgs
   interactive_markers
   message_generation
@@ -21,6 +24,7 @@ add_message_files(FILES
   Pin.msg
 )
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+generate_dynamic_reconfigure_options(cfg/Cloth.cfg)
 
 catkin_package(
   INCLUDE_DIRS include

@@ -10,14 +10,18 @@ add_library(cloth_ros STATIC
   src/ros/end_by_signal.cpp
   src/ros/errands.cpp
   src/ros/frames.cpp
+  src/ros/health.cpp
   src/ros/live_cloth.cpp
+  src/ros/live_keys.cpp
   src/ros/mesh_marker.cpp
   src/ros/messages.cpp
   src/ros/node_clock.cpp
   src/ros/node_scene.cpp
+  src/ros/pin_attachments.cpp
   src/ros/pin_handles.cpp
   src/ros/pin_markers.cpp
   src/ros/pin_requests.cpp
+  src/ros/pin_wrenches.cpp
   src/ros/recorded_model.cpp
   src/ros/recorded_topologies.cpp
   src/ros/refusal_log.cpp
@@ -28,7 +32,9 @@ add_library(cloth_ros STATIC
   src/ros/spring_marker.cpp
   src/ros/tick_clock.cpp
   src/ros/tick_statistics.cpp
+  src/ros/tuning.cpp
   src/ros/wind_request.cpp
+  src/ros/wind_time_out.cpp
 )
 add_dependencies(cloth_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(cloth_ros PUBLIC src/ros)

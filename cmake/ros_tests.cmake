@@ -2,9 +2,12 @@
 catkin_add_gtest(test_ros
   test/ros/conversions_test.cpp
   test/ros/errands_test.cpp
+  test/ros/health_test.cpp
+  test/ros/live_keys_test.cpp
   test/ros/mesh_marker_test.cpp
   test/ros/messages_test.cpp
   test/ros/node_scene_test.cpp
+  test/ros/pin_attachments_test.cpp
   test/ros/pin_markers_test.cpp
   test/ros/pin_requests_test.cpp
   test/ros/recorded_model_test.cpp
@@ -13,6 +16,7 @@ catkin_add_gtest(test_ros
   test/ros/shading_test.cpp
   test/ros/tick_clock_test.cpp
   test/ros/tick_statistics_test.cpp
+  test/ros/wind_time_out_test.cpp
 )
 target_link_libraries(test_ros cloth_ros ${GTEST_MAIN_LIBRARIES})
 target_include_directories(test_ros PRIVATE test)
@@ -25,10 +29,12 @@ include_directories(SYSTEM ${rosbag_INCLUDE_DIRS})
 add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
   test/ros/child_process.cpp
   test/ros/rostest_main.cpp
+  test/ros/stalled_listener.cpp
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence master_clock pin_handles reload replay requests start_up streams time)
+foreach(name bag clock divergence health lost_master master_clock pin_handles reload replay requests robustness start_up streams tf_pins
+    time tuning wind wrenches)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
   )

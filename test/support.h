@@ -117,7 +117,7 @@ inline SheetProperties chain(int nodes, double stiffness, double node_mass)
 /// No air at all.
 inline AirProperties vacuum()
 {
-  return { 0.0, 0.0, Eigen::Vector3d::Zero() };
+  return { 0.0, 0.0, Eigen::Vector3d::Zero(), {} };
 }
 
 /// The start of a simulation in which nothing but springs acts.

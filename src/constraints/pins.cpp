@@ -27,6 +27,24 @@ Pin without(const Pin& pin, const std::vector<int>& taken)
   return rest;
 }
 
+/// The part of the way that is behind at `time`.
+double part_at(const Carry& carry, double time)
+{
+  return time >= carry.end ? 1.0 : std::max(0.0, time - carry.start) / (carry.end - carry.start);
+}
+
+bool is_under_way(const Carry& carry, double time)
+{
+  const double duration = carry.end - carry.start;
+  return duration > 0.0 && time >= carry.start && time <= carry.end + 1e-6 * duration;
+}
+
+/// Where a carried pin was held, as seen from its pivot: one row for each of its nodes, turned as at `time`.
+Vectors arms_of(const Pin& pin, double time)
+{
+  return (pin.held.rowwise() - pin.carry.pivot.transpose()) * pin.carry.rotation(time).transpose();
+}
+
 }  // namespace
 
 Eigen::Vector3d Oscillation::displacement(double time) const
@@ -41,36 +59,56 @@ Eigen::Vector3d Oscillation::velocity(double time) const
 
 Eigen::Vector3d Carry::displacement(double time) const
 {
-  if (time >= end)
-  {
-    return to;
-  }
-  const double part = std::max(0.0, time - start) / (end - start);
-  return from + part * (to - from);
+  return time >= end ? to : Eigen::Vector3d(from + part_at(*this, time) * (to - from));
 }
 
 Eigen::Vector3d Carry::velocity(double time) const
 {
-  if (time <= start || time > end)
+  return is_under_way(*this, time) ? Eigen::Vector3d((to - from) / (end - start)) : Eigen::Vector3d::Zero();
+}
+
+Eigen::Matrix3d Carry::rotation(double time) const
+{
+  const double angle = turn.norm();
+  if (angle == 0.0)
   {
-    return Eigen::Vector3d::Zero();
+    return turned;
   }
-  return (to - from) / (end - start);
+  return Eigen::AngleAxisd(part_at(*this, time) * angle, turn / angle) * turned;
 }
 
-Eigen::Vector3d Pin::displacement(double time) const
+Eigen::Vector3d Carry::angular_velocity(double time) const
 {
-  return oscillation.displacement(time) + carry.displacement(time);
+  return is_under_way(*this, time) ? Eigen::Vector3d(turn / (end - start)) : Eigen::Vector3d::Zero();
 }
 
-Eigen::Vector3d Pin::velocity(double time) const
+bool Carry::is_straight() const
 {
-  return oscillation.velocity(time) + carry.velocity(time);
+  return turn.isZero(0.0) && turned.isIdentity(0.0);
+}
+
+Eigen::Isometry3d Carry::placement(double time) const
+{
+  return Eigen::Translation3d(pivot + displacement(time)) * Eigen::Isometry3d(rotation(time)) *
+         Eigen::Translation3d(-pivot);
+}
+
+Eigen::Vector3d Pin::held_middle() const
+{
+  return held.colwise().mean().transpose();
 }
 
 Eigen::Vector3d Pin::middle(double time) const
 {
-  return held.colwise().mean().transpose() + displacement(time);
+  const Eigen::Vector3d still = held_middle();
+  const Eigen::Vector3d carried =
+      carry.is_straight() ? Eigen::Vector3d(still + carry.displacement(time)) : carry.placement(time) * still;
+  return carried + oscillation.displacement(time);
+}
+
+double Pin::reach() const
+{
+  return std::sqrt((held.rowwise() - held.colwise().mean()).rowwise().squaredNorm().maxCoeff());
 }
 
 Pins::Pins(int nodes) : held_(static_cast<size_t>(nodes), 0)
@@ -110,21 +148,40 @@ void Pins::release_all()
 
 bool Pins::carry(const std::string& name, const Eigen::Vector3d& target, double start, double end)
 {
-  for (Pin& pin : pins_)
+  Pin* const pin = look_up(name);
+  if (pin == nullptr)
   {
-    if (pin.name == name)
-    {
-      const Eigen::Vector3d now = pin.carry.displacement(start);
-      const Eigen::Vector3d missing =
-          target - (pin.held.colwise().mean().transpose() + pin.oscillation.displacement(end));
-      pin.carry = { now, missing, start, end };
-      return true;
-    }
+    return false;
   }
-  return false;
+  const Eigen::Vector3d pivot = pin->held_middle();
+  const Eigen::Vector3d from = pin->carry.is_straight() ? pin->carry.displacement(start) :
+                                                          Eigen::Vector3d(pin->carry.placement(start) * pivot - pivot);
+  const Eigen::Vector3d to = target - (pivot + pin->oscillation.displacement(end));
+  pin->carry = { from, to, start, end, pivot, pin->carry.rotation(start), Eigen::Vector3d::Zero() };
+  return true;
+}
+
+bool Pins::carry(const std::string& name, const Eigen::Isometry3d& placement, const Eigen::Vector3d& pivot,
+                 double start, double end)
+{
+  Pin* const pin = look_up(name);
+  if (pin == nullptr)
+  {
+    return false;
+  }
+  const Eigen::Isometry3d now = pin->carry.placement(start);
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(placement.linear() * now.linear().transpose()));
+  pin->carry = { now * pivot - pivot, placement * pivot - pivot, start, end, pivot,
+                 now.linear(),        turn.angle() * turn.axis() };
+  return true;
 }
 
 const Pin* Pins::find(const std::string& name) const
+{
+  return const_cast<Pins*>(this)->look_up(name);
+}
+
+Pin* Pins::look_up(const std::string& name)
 {
   const auto found = std::find_if(pins_.begin(), pins_.end(), [&](const Pin& pin) { return pin.name == name; });
   return found == pins_.end() ? nullptr : &*found;
@@ -134,10 +191,15 @@ void Pins::impose(double time, Vectors& positions, Vectors& velocities) const
 {
   for (const Pin& pin : pins_)
   {
-    const Eigen::RowVector3d displacement = pin.displacement(time).transpose();
-    for (size_t i = 0; i < pin.nodes.size(); ++i)
+    const Eigen::Vector3d displacement = pin.oscillation.displacement(time) + pin.carry.displacement(time);
+    if (pin.carry.is_straight())
     {
-      positions.row(pin.nodes[i]) = pin.held.row(static_cast<Eigen::Index>(i)) + displacement;
+      positions(pin.nodes, Eigen::all) = pin.held.rowwise() + displacement.transpose();
+    }
+    else
+    {
+      const Eigen::RowVector3d pivot = (pin.carry.pivot + displacement).transpose();
+      positions(pin.nodes, Eigen::all) = arms_of(pin, time).rowwise() + pivot;
     }
   }
   impose_velocities(time, velocities);
@@ -147,10 +209,16 @@ void Pins::impose_velocities(double time, Vectors& velocities) const
 {
   for (const Pin& pin : pins_)
   {
-    const Eigen::RowVector3d velocity = pin.velocity(time).transpose();
-    for (const int node : pin.nodes)
+    const Eigen::RowVector3d velocity = (pin.oscillation.velocity(time) + pin.carry.velocity(time)).transpose();
+    const Eigen::Vector3d angular_velocity = pin.carry.angular_velocity(time);
+    if (angular_velocity.isZero(0.0))
     {
-      velocities.row(node) = velocity;
+      velocities(pin.nodes, Eigen::all).rowwise() = velocity;
+    }
+    else
+    {
+      velocities(pin.nodes, Eigen::all) =
+          (-arms_of(pin, time).rowwise().cross(angular_velocity.transpose())).rowwise() + velocity;
     }
   }
 }

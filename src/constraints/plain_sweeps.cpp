@@ -18,14 +18,16 @@ constexpr int block_size = 32;
 class Sweeps
 {
 public:
+  /// `shifts`, unless null, gets what the held ends of springs were spared: their mass times way, kg m.
   Sweeps(const std::vector<SpringBatch>& batches, double max_strain, const std::vector<double>& inverse_masses,
-         Vectors& positions)
+         Vectors& positions, Vectors* shifts)
     : batches_(batches)
     , max_strain_(max_strain)
     , inverse_masses_(inverse_masses)
     , x_(positions.col(0).data())
     , y_(positions.col(1).data())
     , z_(positions.col(2).data())
+    , shifts_(shifts)
     , moved_at_(static_cast<size_t>(positions.rows() / block_size + 1), 0)
   {
     for (const SpringBatch& batch : batches_)
@@ -128,6 +130,12 @@ private:
       return;
     }
     const double part = (1.0 - limit_ / std::sqrt(squared)) / inverse_masses;
+    if (shifts_ != nullptr)
+    {
+      const Eigen::RowVector3d pull(x_[j] - x_[i], y_[j] - y_[i], z_[j] - z_[i]);
+      shifts_->row(i) += part * pull;
+      shifts_->row(j) -= part * pull;
+    }
     const double share_i = part * inverse_masses_[static_cast<size_t>(i)];
     const double share_j = part * inverse_masses_[static_cast<size_t>(j)];
     for (double* const column : { x_, y_, z_ })
@@ -147,6 +155,7 @@ private:
   double* const x_;
   double* const y_;
   double* const z_;
+  Vectors* const shifts_;
   long now_ = 0;  ///< counts the blocks looked at
   std::vector<long> moved_at_;
   std::vector<std::vector<long>> found_short_at_;
@@ -162,9 +171,10 @@ PlainSweeps::PlainSweeps(const ClothModel& model, double max_strain)
 {
 }
 
-StrainLimit::Report PlainSweeps::shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions)
+StrainLimit::Report PlainSweeps::shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
+                                         Vectors* shifts)
 {
-  Sweeps sweeps(batches_, max_strain_, inverse_masses, positions);
+  Sweeps sweeps(batches_, max_strain_, inverse_masses, positions, shifts);
   StrainLimit::Report report;
   bool corrected = true;
   while (corrected && report.sweeps < passes)

@@ -17,7 +17,8 @@ class PlainSweeps : public Shortening
 public:
   PlainSweeps(const ClothModel& model, double max_strain);
 
-  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions) override;
+  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
+                              Vectors* shifts) override;
 
 private:
   std::vector<SpringBatch> batches_;

@@ -209,7 +209,8 @@ void SpringTensions::for_each_block(bool backwards, Visit&& visit)
   }
 }
 
-StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions)
+StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
+                                            Vectors* shifts)
 {
   ++now_;
   std::fill(moved_at_.begin(), moved_at_.end(), now_);
@@ -227,6 +228,10 @@ StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_m
     is_first_guess = false;
     report.moved = true;
     ++report.sweeps;
+  }
+  if (shifts != nullptr)
+  {
+    add_tensions_to(*shifts);
   }
   margin_ = std::clamp(margin_ * (report.sweeps > few ? margin_growth : margin_decay), least_margin, most_margin);
   return report;
@@ -276,6 +281,19 @@ bool SpringTensions::pull_as_before(const std::vector<double>& inverse_masses, V
   scale_tensions(factor);
   positions += factor * shifts_;
   return true;
+}
+
+void SpringTensions::add_tensions_to(Vectors& shifts)
+{
+  for_each_block(false, [&](Batch& batch, const Block& block) {
+    for (int k = 0; batch.is_taut[block.index] && k < block.n; ++k)
+    {
+      const size_t spring = static_cast<size_t>(block.first + k);
+      const Eigen::RowVector3d tension(batch.tensions[0][spring], batch.tensions[1][spring], batch.tensions[2][spring]);
+      shifts.row(block.node + k) += tension;
+      shifts.row(block.node + k + batch.springs.offset) -= tension;
+    }
+  });
 }
 
 void SpringTensions::let_go()

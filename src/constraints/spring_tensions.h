@@ -31,7 +31,8 @@ class SpringTensions : public Shortening
 public:
   SpringTensions(const ClothModel& model, double max_strain);
 
-  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions) override;
+  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
+                              Vectors* shifts) override;
 
 private:
   /// Springs are shortened to somewhat less than the limit, by this part of max_strain, so that fewer passes find them
@@ -73,6 +74,7 @@ private:
   bool pull_as_before(const std::vector<double>& inverse_masses, Vectors& positions);
   bool find_too_long(const std::vector<double>& inverse_masses, const Vectors& positions);
   void relax_taut_blocks(bool backwards, const std::vector<double>& inverse_masses, Vectors& positions);
+  void add_tensions_to(Vectors& shifts);
   void let_go();
   void scale_tensions(double factor);
   void mark_moved(int node, int n);

@@ -45,17 +45,24 @@ StrainLimit::StrainLimit(StrainLimit&&) noexcept = default;
 StrainLimit& StrainLimit::operator=(StrainLimit&&) noexcept = default;
 StrainLimit::~StrainLimit() = default;
 
-StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state)
+StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state,
+                                       Vectors* impulses)
 {
   for (int i = 0; i < model.nodes(); ++i)
   {
     inverse_masses_[static_cast<size_t>(i)] = pins.holds(i) ? 0.0 : 1.0 / model.masses[i];
   }
   uncorrected_ = state.positions;
-  const Report report = shortening_->shorten(inverse_masses_, properties_.sweeps, state.positions);
+  Vectors shifts = Vectors::Zero(impulses != nullptr ? model.nodes() : 0, 3);
+  const Report report = shortening_->shorten(inverse_masses_, properties_.sweeps, state.positions,
+                                             impulses != nullptr ? &shifts : nullptr);
   if (report.moved)
   {
     state.velocities += (state.positions - uncorrected_) / h;
+  }
+  if (impulses != nullptr)
+  {
+    *impulses += shifts / h;
   }
   return report;
 }

@@ -5,7 +5,7 @@
 namespace cloth
 {
 
-Air::Air(const AirProperties& properties) : properties_(properties)
+Air::Air(const AirProperties& properties) : properties_(properties), gusts_(properties.gusts)
 {
 }
 
@@ -23,15 +23,15 @@ void Air::make_room_for(const ClothModel& model) const
   }
 }
 
-void Air::add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+void Air::add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                      Vectors& forces) const
 {
   make_room_for(model);
-  add_forces(model, positions, velocities, all_nodes(model), forces);
+  add_forces(model, time, positions, velocities, all_nodes(model), forces);
 }
 
-void Air::add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, NodeRange nodes,
-                     Vectors& forces) const
+void Air::add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
+                     NodeRange nodes, Vectors& forces) const
 {
   if (properties_.viscous_damping > 0.0)
   {
@@ -54,18 +54,18 @@ void Air::add_forces(const ClothModel& model, const Vectors& positions, const Ve
   {
     return;
   }
-  find_normal_speeds(model, positions, velocities, nodes);
+  find_normal_speeds(model, time, positions, velocities, nodes);
   normal_speeds_.segment(nodes.begin, nodes.size()) *=
       properties_.wind_coupling * model.areas.segment(nodes.begin, nodes.size()).array();
   add_along_normals(nodes, forces);
 }
 
-void Air::find_normal_speeds(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+void Air::find_normal_speeds(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                              NodeRange nodes) const
 {
   node_normals(model, positions, nodes, normals_);
+  const Eigen::Vector3d wind = wind_at(time);
   in_widest_vectors([&](auto) {
-    const Eigen::Vector3d wind = properties_.wind;
     const double* const n_x = normals_.col(0).data();
     const double* const n_y = normals_.col(1).data();
     const double* const n_z = normals_.col(2).data();
@@ -100,7 +100,8 @@ void Air::add_along_normals(NodeRange nodes, Vectors& vectors) const
 
 // n is a unit vector, so that along n the equation is scalar:
 // (m + h C_dis + h C_vi) (n . v) = m (n . v_given) + h C_vi (n . u),  and across n: (m + h C_dis) v = m v_given.
-void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const
+void Air::damp_implicitly(const ClothModel& model, double time, const Vectors& positions, double h,
+                          Vectors& velocities) const
 {
   if (properties_.viscous_damping > 0.0)
   {
@@ -115,7 +116,7 @@ void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, dou
     return;
   }
   make_room_for(model);
-  find_normal_speeds(model, positions, velocities, all_nodes(model));
+  find_normal_speeds(model, time, positions, velocities, all_nodes(model));
   const auto coupled = h * properties_.wind_coupling * model.areas.array();
   const auto inertia = model.masses.array() + h * properties_.viscous_damping * model.areas.array();
   normal_speeds_ *= coupled / (inertia + coupled);
@@ -124,18 +125,18 @@ void Air::damp_implicitly(const ClothModel& model, const Vectors& positions, dou
 
 // Likewise: without C_vi the equation gives a, with which the air still has C_vi n . (u - v - h a) to add along n, over
 // m + h C_dis + h C_vi.
-void Air::accelerate_implicitly(const ClothModel& model, const Vectors& positions, double h, NodeRange nodes,
-                                Vectors& forces, Vectors& velocities) const
+void Air::accelerate_implicitly(const ClothModel& model, double time, const Vectors& positions, double h,
+                                NodeRange nodes, Vectors& forces, Vectors& velocities) const
 {
   const bool coupled = is_coupled(model);
   if (coupled)
   {
     node_normals(model, positions, nodes, normals_);
   }
-  in_widest_vectors([this, &model, h, nodes, &forces, &velocities, coupled](auto) {
+  const Eigen::Vector3d wind = wind_at(time);
+  in_widest_vectors([this, &model, h, nodes, &forces, &velocities, coupled, wind](auto) {
     const double damping = properties_.viscous_damping;
     const double coupling = properties_.wind_coupling;
-    const Eigen::Vector3d wind = properties_.wind;
     const double* const masses = model.masses.data();
     const double* const areas = model.areas.data();
     double* const v_x = velocities.col(0).data();

@@ -71,8 +71,8 @@ void for_each_block(const SpringBatch& batch, Work&& work)
   }
 }
 
-/// Adds the block's vectors s in [from, to) to the nodes i + s.
-inline void add_to_nodes(const Block& block, int i, int from, int to, Vectors& vectors)
+/// Adds the block's vectors s in [from, to), times 1 or -1, to the nodes i + s.
+inline void add_to_nodes(const Block& block, double sign, int i, int from, int to, Vectors& vectors)
 {
   const double* const columns[] = { block.x, block.y, block.z };
   for (int d = 0; d < 3; ++d)
@@ -82,22 +82,7 @@ inline void add_to_nodes(const Block& block, int i, int from, int to, Vectors& v
 #pragma GCC ivdep
     for (int s = from; s < to; ++s)
     {
-      sums[s] += added[s];
-    }
-  }
-}
-
-inline void take_from_nodes(const Block& block, int i, int from, int to, Vectors& vectors)
-{
-  const double* const columns[] = { block.x, block.y, block.z };
-  for (int d = 0; d < 3; ++d)
-  {
-    const double* const taken = columns[d];
-    double* const sums = vectors.col(d).data() + i;
-#pragma GCC ivdep
-    for (int s = from; s < to; ++s)
-    {
-      sums[s] -= taken[s];
+      sums[s] += sign * added[s];
     }
   }
 }
@@ -105,8 +90,8 @@ inline void take_from_nodes(const Block& block, int i, int from, int to, Vectors
 /// Adds the block's vectors to the first ends and takes them from the second ends.
 inline void add_to_both_ends(const Block& block, int i, int offset, int n, Vectors& vectors)
 {
-  add_to_nodes(block, i, 0, n, vectors);
-  take_from_nodes(block, i + offset, 0, n, vectors);
+  add_to_nodes(block, 1.0, i, 0, n, vectors);
+  add_to_nodes(block, -1.0, i + offset, 0, n, vectors);
 }
 
 /// Zeroes the vectors of nodes from which no spring of the batch begins: `block` begins with node i.
@@ -150,8 +135,8 @@ void add_by_blocks(const ClothModel& model, NodeRange first_ends, NodeRange node
       }
       work(batch, i, n, block);
       clear_gaps(batch, i, n, block);
-      add_to_nodes(block, i, std::max(0, nodes.begin - i), n, vectors);
-      take_from_nodes(block, i + batch.offset, 0, std::min(n, nodes.end - batch.offset - i), vectors);
+      add_to_nodes(block, 1.0, i, std::max(0, nodes.begin - i), n, vectors);
+      add_to_nodes(block, -1.0, i + batch.offset, 0, std::min(n, nodes.end - batch.offset - i), vectors);
     }
   }
 }

@@ -64,6 +64,10 @@ public:
       error = try_step(dynamics, taken, state, report);
     }
     report.converged = error <= 1.0;
+    if (records())
+    {
+      stages_.add_impulses(dynamics, taken, impulses());
+    }
     stages_.advance(dynamics, taken, state);
     stages_.keep_last_as_first();
     choose_next_step(taken, error, report.rejected_steps > 0);
@@ -94,6 +98,7 @@ private:
     error_in_positions_.setZero(state.positions.rows(), 3);
     error_in_velocities_.setZero(state.positions.rows(), 3);
     stages_.add_weighted(dynamics, h, error_weights(), error_in_positions_, error_in_velocities_);
+    dynamics.pins().clear_held(error_in_velocities_);
     const double largest =
         std::max(error_in_positions_.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>(),
                  h * h * error_in_velocities_.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());

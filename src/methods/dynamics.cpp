@@ -71,27 +71,38 @@ void Dynamics::forces(double time, const Vectors& positions, const Vectors& velo
   forces.resize(model_.nodes(), 3);
   for_each_band([&](NodeRange band) {
     forces_without_air(time, positions, velocities, band, forces,
-                       [&](NodeRange nodes) { air_.add_forces(model_, positions, velocities, nodes, forces); });
+                       [&](NodeRange nodes) { air_.add_forces(model_, time, positions, velocities, nodes, forces); });
   });
+}
+
+void Dynamics::unheld_accelerations_of(const Vectors& forces, Vectors& accelerations) const
+{
+  accelerations = forces.array().colwise() * inverse_masses_;
 }
 
 void Dynamics::accelerations_of(const Vectors& forces, Vectors& accelerations) const
 {
-  accelerations = forces.array().colwise() * inverse_masses_;
+  unheld_accelerations_of(forces, accelerations);
   pins_.clear_held(accelerations);
 }
 
 void Dynamics::accelerations(double time, const Vectors& positions, const Vectors& velocities,
                              Vectors& accelerations) const
 {
+  unheld_accelerations(time, positions, velocities, accelerations);
+  pins_.clear_held(accelerations);
+}
+
+void Dynamics::unheld_accelerations(double time, const Vectors& positions, const Vectors& velocities,
+                                    Vectors& accelerations) const
+{
   accelerations.resize(model_.nodes(), 3);
   for_each_band([&](NodeRange band) {
     forces_without_air(time, positions, velocities, band, accelerations, [&](NodeRange nodes) {
-      air_.add_forces(model_, positions, velocities, nodes, accelerations);
+      air_.add_forces(model_, time, positions, velocities, nodes, accelerations);
       divide_by_masses(nodes, accelerations);
     });
   });
-  pins_.clear_held(accelerations);
 }
 
 void Dynamics::divide_by_masses(NodeRange nodes, Vectors& forces) const

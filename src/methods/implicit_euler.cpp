@@ -17,6 +17,7 @@ public:
     state.time += h;
     stage_.solve(dynamics, state.time, h, start_.positions, start_.velocities, state.positions, state.velocities,
                  report);
+    add_impulses(h, stage_.forces());
     return report;
   }
 

@@ -17,6 +17,7 @@ public:
     start_ = state;
     stage_.solve(dynamics, state.time + 0.5 * h, 0.5 * h, start_.positions, start_.velocities, state.positions,
                  state.velocities, report);
+    add_impulses(h, stage_.forces());
     state.positions = 2.0 * state.positions - start_.positions;
     state.velocities = 2.0 * state.velocities - start_.velocities;
     state.time += h;

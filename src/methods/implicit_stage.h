@@ -31,6 +31,12 @@ public:
   void solve(const Dynamics& dynamics, double time, double s, const Vectors& base_positions,
              const Vectors& base_velocities, Vectors& positions, Vectors& velocities, StepReport& report);
 
+  /// f(t, x, v) at the last solution, held nodes too, N.
+  const Vectors& forces() const
+  {
+    return forces_;
+  }
+
 private:
   static constexpr int most_iterations = 100;
 

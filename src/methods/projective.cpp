@@ -157,6 +157,10 @@ public:
       last_change = correction_.norm();
       first_change = i == 0 ? last_change : first_change;
     }
+    if (records())
+    {
+      record_last_iteration(dynamics, h);
+    }
     state.positions = start_.positions + h * state.velocities;
     dynamics.pins().impose(end, state.positions, state.velocities);
     state.time = end;
@@ -177,6 +181,20 @@ private:
     dynamics.forces(end, state.positions, state.velocities, forces_);
     residual_ = (state.velocities - start_.velocities).array().colwise() * dynamics.model().masses.array();
     residual_ -= h * forces_;
+  }
+
+  /// The forces that the last residual has, and what the springs of the matrix add by the correction that followed.
+  void record_last_iteration(const Dynamics& dynamics, double h)
+  {
+    add_impulses(h, forces_);
+    for (const SpringBatch& batch : dynamics.model().springs)
+    {
+      const double weight = h * h * batch.stiffness + h * batch.damping;
+      for_each_spring(batch, [&](int i, int j) {
+        impulses().row(i) -= weight * correction_.row(j);
+        impulses().row(j) -= weight * correction_.row(i);
+      });
+    }
   }
 
   int iterations_;

@@ -28,7 +28,7 @@ void RungeKuttaStages::work_out(const Dynamics& dynamics, double h, const ClothS
     });
     add_weighted(dynamics, h, tableau_.stages[i], stage_positions_, stage_velocities);
     dynamics.pins().impose(time, stage_positions_, stage_velocities);
-    dynamics.accelerations(time, stage_positions_, stage_velocities, slopes_[i].acceleration);
+    dynamics.unheld_accelerations(time, stage_positions_, stage_velocities, slopes_[i].acceleration);
   }
 }
 
@@ -56,6 +56,15 @@ void RungeKuttaStages::add_weighted(const Dynamics& dynamics, double h, const st
   });
 }
 
+void RungeKuttaStages::add_impulses(const Dynamics& dynamics, double h, Vectors& impulses) const
+{
+  for (size_t i = 0; i < slopes_.size(); ++i)
+  {
+    const Eigen::ArrayXd factors = h * tableau_.weights[i] * dynamics.model().masses.array();
+    impulses.array() += slopes_[i].acceleration.array().colwise() * factors;
+  }
+}
+
 void RungeKuttaStages::keep_last_as_first()
 {
   std::swap(slopes_.front(), slopes_.back());
@@ -68,6 +77,10 @@ RungeKutta::RungeKutta(const Tableau& tableau) : stages_(tableau)
 StepReport RungeKutta::step(const Dynamics& dynamics, double h, ClothState& state)
 {
   stages_.work_out(dynamics, h, state);
+  if (records())
+  {
+    stages_.add_impulses(dynamics, h, impulses());
+  }
   stages_.advance(dynamics, h, state);
   StepReport report;
   report.force_evaluations = stages_.count();

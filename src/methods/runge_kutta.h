@@ -32,6 +32,9 @@ public:
   void add_weighted(const Dynamics& dynamics, double h, const std::vector<double>& weights, Vectors& positions,
                     Vectors& velocities) const;
 
+  /// Adds h sum_i w_i f_i, N s, held nodes too.
+  void add_impulses(const Dynamics& dynamics, double h, Vectors& impulses) const;
+
   /// Takes the slopes of the last stage for those of the first: of a tableau whose last stage is the step's end.
   void keep_last_as_first();
 
@@ -44,7 +47,7 @@ private:
   struct Slope
   {
     Vectors velocity;
-    Vectors acceleration;
+    Vectors acceleration;  ///< of held nodes: the forces' alone; pins are imposed on all that it leads to
   };
 
   Tableau tableau_;

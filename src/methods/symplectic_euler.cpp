@@ -15,7 +15,10 @@ class SymplecticEuler : public Method
 public:
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
-    dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
+    dynamics.forces(state.time, state.positions, state.velocities, accelerations_);
+    add_impulses(h, accelerations_);
+    dynamics.for_each_band([&](NodeRange nodes) { dynamics.divide_by_masses(nodes, accelerations_); });
+    dynamics.pins().clear_held(accelerations_);
     dynamics.for_each_band([&](NodeRange nodes) {
       add_scaled(nodes, h, accelerations_, state.velocities);
       add_scaled(nodes, h, state.velocities, state.positions);

@@ -24,16 +24,23 @@ public:
       accelerations_known_ = true;
       ++report.force_evaluations;
     }
+    if (records())
+    {
+      dynamics.forces(state.time, state.positions, state.velocities, forces_);
+      add_impulses(from_middle * s, forces_);
+    }
     start_ = state;
     base_positions_ = start_.positions + s * start_.velocities;
     base_velocities_ = start_.velocities + s * accelerations_;
     stage_.solve(dynamics, start_.time + gamma * h, s, base_positions_, base_velocities_, state.positions,
                  state.velocities, report);
+    add_impulses(from_middle * s, stage_.forces());
 
     base_positions_ = from_middle * state.positions - from_start * start_.positions;
     base_velocities_ = from_middle * state.velocities - from_start * start_.velocities;
     state.time = start_.time + h;
     stage_.solve(dynamics, state.time, s, base_positions_, base_velocities_, state.positions, state.velocities, report);
+    add_impulses(s, stage_.forces());
     accelerations_ = (state.velocities - base_velocities_) / s;
     dynamics.pins().clear_held(accelerations_);
     return report;
@@ -55,6 +62,7 @@ private:
   Vectors accelerations_;
   Vectors base_positions_;
   Vectors base_velocities_;
+  Vectors forces_;
 };
 
 }  // namespace

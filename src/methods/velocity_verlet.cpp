@@ -25,22 +25,40 @@ public:
     if (!accelerations_known_)
     {
       dynamics.accelerations(state.time, state.positions, state.velocities, accelerations_);
-      predicted_.resizeLike(state.velocities);
       accelerations_known_ = true;
+      predicted_ = state.velocities;
       ++report.force_evaluations;
+    }
+    if (records())
+    {
+      record_first_half(dynamics, h, state);
     }
     const double end = state.time + h;
     dynamics.for_each_band([&](NodeRange nodes) { predict_and_drift(nodes, h, state); });
     dynamics.pins().impose(end, state.positions, predicted_);
-    dynamics.for_each_band([&](NodeRange band) {
-      dynamics.forces_without_air(end, state.positions, predicted_, band, accelerations_, [&](NodeRange nodes) {
-        dynamics.air().accelerate_implicitly(dynamics.model(), state.positions, 0.5 * h, nodes, accelerations_,
-                                             state.velocities);
+    const auto accelerate = [&](NodeRange nodes) {
+      dynamics.air().accelerate_implicitly(dynamics.model(), end, state.positions, 0.5 * h, nodes, accelerations_,
+                                           state.velocities);
+    };
+    if (records())
+    {
+      dynamics.forces_without_air(end, state.positions, predicted_, accelerations_);
+      add_impulses(0.5 * h, accelerations_);
+      dynamics.for_each_band(accelerate);
+    }
+    else
+    {
+      dynamics.for_each_band([&](NodeRange band) {
+        dynamics.forces_without_air(end, state.positions, predicted_, band, accelerations_, accelerate);
       });
-    });
+    }
     dynamics.pins().clear_held(accelerations_);
     dynamics.pins().impose_velocities(end, state.velocities);
     state.time = end;
+    if (records())
+    {
+      record_air(dynamics, 0.5 * h, state);
+    }
     return report;
   }
 
@@ -71,9 +89,26 @@ private:
     });
   }
 
+  /// With the springs' forces at the velocities that the kept accelerations come from.
+  void record_first_half(const Dynamics& dynamics, double h, const ClothState& state)
+  {
+    dynamics.forces_without_air(state.time, state.positions, predicted_, forces_);
+    add_impulses(0.5 * h, forces_);
+    record_air(dynamics, 0.5 * h, state);
+  }
+
+  /// At the velocities that held nodes have.
+  void record_air(const Dynamics& dynamics, double duration, const ClothState& state)
+  {
+    forces_.setZero(state.positions.rows(), 3);
+    dynamics.air().add_forces(dynamics.model(), state.time, state.positions, state.velocities, forces_);
+    add_impulses(duration, forces_);
+  }
+
   bool accelerations_known_ = false;
   Vectors accelerations_;
   Vectors predicted_;
+  Vectors forces_;
 };
 
 // The first eigenvalue of the step to leave the unit circle leaves it at -1, where z^2/4 + D h = 1, D being the

@@ -32,7 +32,6 @@ public:
   {
     const ClothModel& model = dynamics.model();
     inverse_masses_.resize(model.nodes());
-    accelerations_.resize(model.nodes(), 3);
     for (int i = 0; i < model.nodes(); ++i)
     {
       inverse_masses_[i] = dynamics.pins().holds(i) ? 0.0 : 1.0 / model.masses[i];
@@ -45,6 +44,10 @@ public:
       predict(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       dynamics.pins().impose(state.time, state.positions, state.velocities);
+      if (records())
+      {
+        record_external_forces(dynamics, substep, state);
+      }
       project(model, substep, state.positions);
       state.velocities = (state.positions - before_) / substep;
       dynamics.pins().impose_velocities(state.time, state.velocities);
@@ -57,11 +60,28 @@ public:
 private:
   void predict(const Dynamics& dynamics, double h, ClothState& state)
   {
-    dynamics.external_forces(state.time, all_nodes(dynamics.model()), accelerations_);
+    dynamics.external_forces_on_all(state.time, accelerations_);
     dynamics.accelerations_of(accelerations_, accelerations_);
     state.velocities += h * accelerations_;
-    dynamics.air().damp_implicitly(dynamics.model(), state.positions, h, state.velocities);
+    dynamics.air().damp_implicitly(dynamics.model(), state.time + h, state.positions, h, state.velocities);
     state.positions += h * state.velocities;
+  }
+
+  void record_external_forces(const Dynamics& dynamics, double h, const ClothState& state)
+  {
+    dynamics.external_forces_on_all(state.time, accelerations_);
+    dynamics.air().add_forces(dynamics.model(), state.time, state.positions, state.velocities, accelerations_);
+    add_impulses(h, accelerations_);
+  }
+
+  void record(const RowChanges& changes, int node, int offset, int n, double h)
+  {
+    for (int k = 0; k < n; ++k)
+    {
+      const Eigen::RowVector3d impulse = Eigen::RowVector3d(changes.x[k], changes.y[k], changes.z[k]) / h;
+      impulses().row(node + k) += impulse;
+      impulses().row(node + k + offset) -= impulse;
+    }
   }
 
   /// Row of nodes by row of nodes, so that a row's springs of all batches are done while it is in the nearest cache.
@@ -81,7 +101,13 @@ private:
             const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h),
                                compliance_ / (batch.stiffness * h * h), batch.rest_length };
             in_turns(batch.offset, n, [&](auto&& is_chosen) {
-              project<arithmetic.has_fused_multiply_add>(row, before, gains, is_chosen);
+              RowChanges changes;
+              find_changes<arithmetic.has_fused_multiply_add>(row, before, gains, is_chosen, changes);
+              move_ends(row, changes);
+              if (records())
+              {
+                record(changes, node, batch.offset, n, h);
+              }
             });
           }
         }
@@ -97,9 +123,9 @@ private:
   };
 
   template <bool fused, typename IsChosen>
-  static void project(const SpringRow& row, const SpringRow& before, const Gains& gains, IsChosen&& is_chosen)
+  static void find_changes(const SpringRow& row, const SpringRow& before, const Gains& gains, IsChosen&& is_chosen,
+                           RowChanges& changes)
   {
-    RowChanges changes;
     const double rest_length = gains.rest_length;
     const double damping = gains.damping;
     const double compliance = gains.compliance;
@@ -137,7 +163,6 @@ private:
       changes.y[k] = part * y;
       changes.z[k] = part * z;
     }
-    move_ends(row, changes);
   }
 
   int substeps_;

@@ -9,7 +9,6 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "cloth_sim/ClothStats.h"
 #include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/yaml_text.h"
 
@@ -51,6 +50,21 @@ bool same_topology(cloth_sim::ClothTopology left, const cloth_sim::ClothTopology
   return left == right;
 }
 
+/// Says, here and in the log, that a change has lowered the step; empty where it has not.
+std::string step_report(const SceneParams& asked, const LiveCloth& cloth)
+{
+  const double lowered = cloth.scene.solver.time_step;
+  if (lowered == asked.solver.time_step)
+  {
+    return {};
+  }
+  const std::string report = "tuning: solver.time_step lowered from " + format_number(asked.solver.time_step) +
+                             " s to " + format_number(lowered) + " s, " + format_number(Simulation::limit_share) +
+                             " of the stability limit of " + cloth.simulation.method().name;
+  ROS_WARN("%s", report.c_str());
+  return report;
+}
+
 void require_clock_mode(const SceneParams& scene, const std::string& mode)
 {
   if (scene.node.clock_mode != mode)
@@ -68,11 +82,15 @@ ClothNode::ClothNode(const ros::NodeHandle& private_node, const SceneParams& sce
   , clock_(scene.node)
   , statistics_(WallClock::now())
   , refusals_([](const std::string& cause) { ROS_WARN("refused: %s", cause.c_str()); })
+  , pin_warnings_([](const std::string& warning) { ROS_WARN("%s", warning.c_str()); })
   , transform_listener_(transforms_)
   , frames_(scene.frame_id, transforms_)
   , topology_message_(topology_of(*cloth_, 1))
   , handles_(private_node_.getNamespace() + "/pin_handles",
              [this](const PinHandles::Feedback::ConstPtr& feedback) { take_feedback(feedback); })
+  , wrenches_(private_node_)
+  , health_(private_node_)
+  , tuning_(private_node_, scene, [this](const SceneParams& changed) { return tune(changed); })
 {
   log_plan(*cloth_);
   advertise();
@@ -127,17 +145,20 @@ void ClothNode::take_point(const geometry_msgs::PointStamped& point)
 
 void ClothNode::leave_pin(const std::string& topic, const cloth_sim::Pin& request)
 {
-  leave(topic, [this, request](Simulation& simulation) {
-    apply_pin(request, frames_, clock_.simulated_period(), simulation);
-  });
+  leave(topic, [this, request](Simulation&) { apply(request); });
+}
+
+void ClothNode::apply(const cloth_sim::Pin& request)
+{
+  apply_pin(request, frames_, clock_.simulated_period(), cloth_->simulation, cloth_->attachments);
 }
 
 void ClothNode::take_feedback(const PinHandles::Feedback::ConstPtr& feedback)
 {
-  leave("~pin_handles", [this, feedback](Simulation& simulation) {
+  leave("~pin_handles", [this, feedback](Simulation&) {
     if (const auto request = handles_.take(*feedback))
     {
-      apply_pin(*request, frames_, clock_.simulated_period(), simulation);
+      apply(*request);
     }
   });
 }
@@ -196,11 +217,16 @@ Answer ClothNode::reload()
 {
   try
   {
-    const SceneParams scene = scene_from_parameters(private_node_.getNamespace());
-    require_clock_mode(scene, clock_.is_master() ? "master" : "follow");
-    auto next = std::make_unique<LiveCloth>(scene);
-    log_plan(*next);
-    return errands_.send([&] { return replace_cloth(std::move(next)); });
+    Answer answer;
+    tuning_.replace([&] {
+      const SceneParams scene = scene_from_parameters(private_node_.getNamespace());
+      require_clock_mode(scene, clock_.is_master() ? "master" : "follow");
+      auto next = std::make_unique<LiveCloth>(scene);
+      log_plan(*next);
+      answer = errands_.send([&] { return replace_cloth(std::move(next)); });
+      return scene;
+    });
+    return answer;
   }
   catch (const std::exception& error)
   {
@@ -219,20 +245,56 @@ Answer ClothNode::replace_cloth(std::unique_ptr<LiveCloth> next)
   }
   handles_.clear();
   cloth_ = std::move(next);
+  powerless_wind_reported_ = false;
   frames_.set_frame_id(cloth_->plan.scene.frame_id);
-  if (!same_topology(topology_of(*cloth_, topology_message_.version), topology_message_))
-  {
-    topology_message_ = topology_of(*cloth_, topology_message_.version + 1);
-    publish_topology();
-  }
+  tuning_report_.clear();
+  publish_topology_if_changed();
   start_over();
   return { true, "the scene of the parameter server is at its start" };
+}
+
+SceneParams ClothNode::tune(const SceneParams& scene)
+{
+  SceneParams in_force = scene;
+  const Answer answer = errands_.send([&] {
+    const Answer done = tune_cloth(scene);
+    in_force = cloth_->scene;
+    return done;
+  });
+  if (!answer.success)
+  {
+    throw SceneError(answer.message);
+  }
+  return in_force;
+}
+
+Answer ClothNode::tune_cloth(const SceneParams& scene)
+{
+  apply_requests();  // they were meant for the cloth as it was
+  try
+  {
+    cloth_ = std::make_unique<LiveCloth>(*cloth_, scene);
+  }
+  catch (const SceneError& error)
+  {
+    tuning_report_ = std::string("tuning: refused: ") + error.what();
+    return { false, error.what() };
+  }
+  tuning_report_ = step_report(scene, *cloth_);
+  clock_.set_pace(cloth_->scene.node);
+  publish_topology_if_changed();
+  if (clock_.paused())
+  {
+    publish_cloth(clock_.now());
+  }
+  return { true, {} };
 }
 
 void ClothNode::start_over()
 {
   clock_.restart(cloth_->plan.scene.node);
   divergence_reported_ = false;
+  started_over_ = true;
   publish_cloth(clock_.now());
 }
 
@@ -243,7 +305,7 @@ void ClothNode::run()
   publish_cloth(clock_.now());
   while (ros::ok())
   {
-    doer.do_all();
+    errands_.do_all();
     if (const auto tick = clock_.take())
     {
       run_tick(*tick);
@@ -253,17 +315,26 @@ void ClothNode::run()
       idle();
     }
     publish_stats_when_due();
+    publish_diagnostics_when_due();
   }
 }
 
 void ClothNode::run_tick(const Tick& tick)
 {
-  const auto start = WallClock::now();
+  const auto begin = WallClock::now();
   apply_requests();
-  advance(tick.simulated_time);
-  clock_.show(tick);
-  publish_cloth(tick.stamp);
-  statistics_.add(WallClock::now() - start);
+  carry_pins(tick.simulated_time);
+  const bool measures = prepare_wrenches();
+  if (advance(tick.simulated_time))
+  {
+    clock_.show(tick);
+    publish_cloth(tick.stamp);
+    if (measures && !cloth_->simulation.divergence())
+    {
+      wrenches_.publish(cloth_->simulation, cloth_->plan.scene.frame_id, tick.stamp);
+    }
+  }
+  statistics_.add(WallClock::now() - begin);
 }
 
 void ClothNode::idle()
@@ -282,12 +353,83 @@ bool ClothNode::apply_requests()
   {
     request(cloth_->simulation);
   }
-  return !requests.empty();
+  return apply_wind() || !requests.empty();
 }
 
-void ClothNode::advance(double simulated_time)
+bool ClothNode::apply_wind()
 {
-  if (!cloth_->simulation.advance_to(simulated_time) && !divergence_reported_)
+  if (const auto wind = requests_.take_wind())
+  {
+    warn_where_wind_has_no_effect();
+    cloth_->simulation.set_wind(*wind);
+    cloth_->wind_time_out.restart(clock_.now());
+    return true;
+  }
+  if (cloth_->wind_time_out.is_over(clock_.now()))
+  {
+    ROS_WARN("no message on ~wind for more than wind_timeout, %s s: the scene's wind blows again",
+             format_number(cloth_->plan.scene.node.wind_timeout).c_str());
+    cloth_->simulation.set_wind(cloth_->plan.scene.air.wind);
+    return true;
+  }
+  return false;
+}
+
+void ClothNode::warn_where_wind_has_no_effect()
+{
+  const Simulation& simulation = cloth_->simulation;
+  if (powerless_wind_reported_ || simulation.dynamics().air().is_coupled(simulation.model()))
+  {
+    return;
+  }
+  powerless_wind_reported_ = true;
+  ROS_WARN("~wind has no effect: %s",
+           simulation.model().is_chain() ? "a chain has no normals, along which wind acts" : "air.wind_coupling is 0");
+}
+
+void ClothNode::carry_pins(double simulated_time)
+{
+  cloth_->attachments.carry(frames_, clock_.now(), simulated_time, cloth_->simulation,
+                            [this](const std::string& warning) { pin_warnings_.report(warning); });
+}
+
+bool ClothNode::prepare_wrenches()
+{
+  wrenches_.offer(cloth_->simulation.pins().all());
+  const bool measures = wrenches_.is_listened_to();
+  cloth_->simulation.measure_reactions(measures);
+  return measures;
+}
+
+bool ClothNode::advance(double simulated_time)
+{
+  constexpr std::chrono::milliseconds longest_wait{ 500 };
+  started_over_ = false;
+  tick_begin_ = WallClock::now();
+  const auto first_break = *tick_begin_ + longest_wait;
+  const auto needs_a_break = [&] {
+    const auto now = WallClock::now();
+    return !ros::ok() || (now > first_break && (errands_.any_waiting() || statistics_.due(now)));
+  };
+  while (cloth_->simulation.advance_to(simulated_time, needs_a_break) &&
+         cloth_->simulation.state().time < simulated_time)
+  {
+    errands_.do_all();
+    if (started_over_ || !ros::ok())
+    {
+      break;
+    }
+    publish_stats_when_due();
+    publish_diagnostics_when_due();
+  }
+  tick_begin_.reset();
+  report_divergence();
+  return !started_over_ && ros::ok();
+}
+
+void ClothNode::report_divergence()
+{
+  if (cloth_->simulation.divergence() && !divergence_reported_)
   {
     divergence_reported_ = true;
     ROS_ERROR("%s. The last good state is kept and published until ~reset or ~reload.",
@@ -330,6 +472,15 @@ void ClothNode::publish_topology()
   topology_.publish(topology_message_);
 }
 
+void ClothNode::publish_topology_if_changed()
+{
+  if (!same_topology(topology_of(*cloth_, topology_message_.version), topology_message_))
+  {
+    topology_message_ = topology_of(*cloth_, topology_message_.version + 1);
+    publish_topology();
+  }
+}
+
 void ClothNode::publish_stats_when_due()
 {
   const auto now = WallClock::now();
@@ -338,13 +489,16 @@ void ClothNode::publish_stats_when_due()
     return;
   }
   const Simulation& simulation = cloth_->simulation;
-  cloth_sim::ClothStats message = stats_message(simulation, statistics_.take(now, simulation.state().time));
-  message.header.stamp = clock_.now();
-  message.header.frame_id = cloth_->plan.scene.frame_id;
-  message.overruns = clock_.overruns();
-  message.paused = clock_.paused() ? 1 : 0;
-  message.plan = joined(describe(cloth_->plan, simulation), "\n");
-  stats_.publish(message);
+  const TickReport ticks = statistics_.take(now, simulation.state().time);
+  tick_rate_ = ticks.rate;
+  stats_message_ = stats_message(simulation, ticks);
+  stats_message_.header.stamp = clock_.now();
+  stats_message_.header.frame_id = cloth_->plan.scene.frame_id;
+  stats_message_.overruns = clock_.overruns();
+  stats_message_.paused = clock_.paused() ? 1 : 0;
+  stats_message_.plan = joined(describe(cloth_->plan, simulation), "\n");
+  stats_message_.plan += tuning_report_.empty() ? "" : "\n" + tuning_report_;
+  stats_.publish(stats_message_);
   if (clock_.paused())
   {
     state_.publish(state_message_);  // for those who came since
@@ -354,6 +508,25 @@ void ClothNode::publish_stats_when_due()
   {
     ROS_WARN_THROTTLE(60.0, "%s", unsolved.c_str());
   }
+}
+
+void ClothNode::publish_diagnostics_when_due()
+{
+  const auto now = WallClock::now();
+  const bool has_stats = !stats_message_.method.empty();
+  if (!has_stats || !health_.due(now))
+  {
+    return;
+  }
+  Condition condition;
+  condition.stats = stats_message_;
+  condition.tick_rate = tick_rate_;
+  condition.asked = cloth_->plan.scene.node;
+  condition.strain_limit = cloth_->plan.scene.strain_limit.max_strain;
+  condition.divergence = cloth_->simulation.divergence_report();
+  condition.transform = frames_.last_use();
+  condition.tick_under_way = tick_begin_ ? std::chrono::duration<double>(now - *tick_begin_).count() : 0.0;
+  health_.publish(condition, now);
 }
 
 }  // namespace cloth

@@ -31,6 +31,26 @@ YAML::Node sequence_of(XmlRpc::XmlRpcValue& value)
   return sequence;
 }
 
+XmlRpc::XmlRpcValue to_scalar_parameter(const YAML::Node& scalar)
+{
+  int integer = 0;
+  double number = 0.0;
+  bool truth = false;
+  if (YAML::convert<int>::decode(scalar, integer))
+  {
+    return XmlRpc::XmlRpcValue(integer);
+  }
+  if (YAML::convert<double>::decode(scalar, number))
+  {
+    return XmlRpc::XmlRpcValue(number);
+  }
+  if (YAML::convert<bool>::decode(scalar, truth))
+  {
+    return XmlRpc::XmlRpcValue(truth);
+  }
+  return XmlRpc::XmlRpcValue(scalar.Scalar());
+}
+
 }  // namespace
 
 YAML::Node to_yaml(XmlRpc::XmlRpcValue value)
@@ -56,6 +76,28 @@ YAML::Node to_yaml(XmlRpc::XmlRpcValue value)
     default:
       return YAML::Node("(binary data)");
   }
+}
+
+XmlRpc::XmlRpcValue to_parameter(const YAML::Node& value)
+{
+  if (value.IsScalar())
+  {
+    return to_scalar_parameter(value);
+  }
+  XmlRpc::XmlRpcValue parameter;
+  if (value.IsSequence())
+  {
+    parameter.setSize(static_cast<int>(value.size()));
+    for (size_t i = 0; i < value.size(); ++i)
+    {
+      parameter[static_cast<int>(i)] = to_parameter(value[i]);
+    }
+  }
+  for (const auto& entry : value.IsMap() ? value : YAML::Node())
+  {
+    parameter[entry.first.as<std::string>()] = to_parameter(entry.second);
+  }
+  return parameter;
 }
 
 Eigen::Vector3d to_eigen(const geometry_msgs::Point& point)

@@ -19,6 +19,9 @@ namespace cloth
 /// `read_scene` to take as the number or list that is due; dates and binary data become text that no key allows.
 YAML::Node to_yaml(XmlRpc::XmlRpcValue value);
 
+/// The other way: scalars become integers, numbers or truth values where they read as such, else text.
+XmlRpc::XmlRpcValue to_parameter(const YAML::Node& value);
+
 Eigen::Vector3d to_eigen(const geometry_msgs::Point& point);
 Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector);
 

@@ -46,6 +46,12 @@ void Errands::do_all()
   }
 }
 
+bool Errands::any_waiting() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !waiting_.empty();
+}
+
 void Errands::close()
 {
   const std::lock_guard<std::mutex> lock(mutex_);

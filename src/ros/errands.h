@@ -23,8 +23,8 @@ class Errands
 public:
   using Errand = std::function<Answer()>;
 
-  /// While it lives, the thread that holds it does the errands; when it goes, those that wait are refused, and all that
-  /// come later.
+  /// While it lives, the thread that holds it is to do the errands; when it goes, those that wait are refused, and all
+  /// that come later.
   class Doer
   {
   public:
@@ -38,12 +38,6 @@ public:
     Doer(const Doer&) = delete;
     Doer& operator=(const Doer&) = delete;
 
-    /// Does all that waits, in the order in which it came.
-    void do_all() const
-    {
-      errands_.do_all();
-    }
-
   private:
     Errands& errands_;
   };
@@ -51,11 +45,16 @@ public:
   /// Has `errand` done, and waits for its answer; throws what it throws. From any thread but the doer's.
   Answer send(Errand errand);
 
-private:
+  /// Does all that waits, in the order in which it came. For the doer's thread alone.
   void do_all();
+
+  /// Whether any errand waits to be done.
+  bool any_waiting() const;
+
+private:
   void close();
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<std::packaged_task<Answer()>> waiting_;
   bool closed_ = false;
 };

@@ -4,19 +4,56 @@
 
 namespace cloth
 {
+namespace
+{
+
+/// `running` going over to `plan`.
+Simulation simulation_with(const Plan& plan, const LiveCloth& running)
+{
+  Simulation simulation = carry_on(plan, running.simulation);
+  if (plan.scene.air.wind == running.scene.air.wind)
+  {
+    simulation.set_wind(running.simulation.dynamics().air().properties().wind);
+  }
+  return simulation;
+}
+
+}  // namespace
 
 LiveCloth::LiveCloth(const SceneParams& scene)
-  : plan(make_plan(scene))
+  : scene(scene)
+  , plan(make_plan(scene))
   , simulation(build_simulation(plan))
   , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
   , springs(simulation.model(), plan.scene.frame_id)
   , pins(simulation.model(), plan.scene.frame_id)
+  , attachments(plan.scene.node.tf_pins)
+  , wind_time_out(plan.scene.node.wind_timeout)
 {
+}
+
+LiveCloth::LiveCloth(const LiveCloth& running, const SceneParams& next)
+  : scene(next)
+  , plan(live_plan(running.plan, next))
+  , simulation(simulation_with(plan, running))
+  , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
+  , springs(simulation.model(), plan.scene.frame_id)
+  , pins(running.pins)
+  , attachments(running.attachments)
+  , wind_time_out(running.wind_time_out)
+{
+  const double given = scene.solver.time_step;
+  if (!simulation.method().is_adaptive && given > simulation.time_step())
+  {
+    scene.solver.time_step = plan.scene.solver.time_step = simulation.time_step();
+  }
 }
 
 void LiveCloth::restart()
 {
   simulation = build_simulation(plan);
+  attachments.clear();
+  wind_time_out = WindTimeOut(plan.scene.node.wind_timeout);
 }
 
 }  // namespace cloth

@@ -4,8 +4,10 @@
 #include "cloth_sim/simulation/simulation.h"
 
 #include "mesh_marker.h"
+#include "pin_attachments.h"
 #include "pin_markers.h"
 #include "spring_marker.h"
+#include "wind_time_out.h"
 
 namespace cloth
 {
@@ -15,17 +17,23 @@ struct LiveCloth
 {
   /// Throws what `make_plan` and `build_simulation` throw.
   explicit LiveCloth(const SceneParams& scene);
+  /// The same cloth with the live keys of `next`: its state carries on. Wind that a message has set stays unless
+  /// air.wind changes. Throws what `live_plan` and `carry_on` throw.
+  LiveCloth(const LiveCloth& running, const SceneParams& next);
   LiveCloth(const LiveCloth&) = delete;  // the markers refer to the simulation's model
   LiveCloth& operator=(const LiveCloth&) = delete;
 
   /// Back to time 0, with pins and wind as the scene has them.
   void restart();
 
+  SceneParams scene;  ///< as it is in force: a step that a change has made unstable is lowered
   Plan plan;
   Simulation simulation;
   MeshMarker mesh;
   SpringMarker springs;
   PinMarkers pins;
+  PinAttachments attachments;
+  WindTimeOut wind_time_out;
 };
 
 }  // namespace cloth

@@ -45,6 +45,12 @@ public:
   /// Simulated time begins at 0 again, overruns too, ROS time goes on; paused or not as before.
   void restart(const NodeParams& node);
 
+  /// The rate and the factor of `node` from now on; all else goes on.
+  void set_pace(const NodeParams& node)
+  {
+    ticks_.set_pace(node.rate, node.real_time_factor);
+  }
+
   /// Wall time for which the node may sleep, so that it comes in time for its next tick and for requests.
   ros::WallDuration rest() const;
 

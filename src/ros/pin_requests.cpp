@@ -17,6 +17,9 @@ namespace cloth
 namespace
 {
 
+/// Farther than any cloth, and near enough to reckon with, m.
+constexpr double farthest = 1e6;
+
 std::string node_in_words(int row, int col)
 {
   return "[" + std::to_string(row) + ", " + std::to_string(col) + "]";
@@ -28,6 +31,11 @@ Eigen::Vector3d point_of(const cloth_sim::Pin& request, const Frames& frames)
   if (!point.allFinite())
   {
     throw RefusedRequest("point is not finite");
+  }
+  if (point.lpNorm<Eigen::Infinity>() > farthest)
+  {
+    throw RefusedRequest("point is " + format_number(point.norm()) + " m away; allowed: up to " +
+                         format_number(farthest) + " along each axis");
   }
   return point;
 }
@@ -105,13 +113,17 @@ void check_name(const std::string& name)
   }
 }
 
-void pin(const cloth_sim::Pin& request, const Frames& frames, Simulation& simulation)
+void check_frame(const std::string& frame)
 {
-  if (!request.attach_frame.empty())
+  if (!frame.empty() && frame[0] == '/')
   {
-    throw RefusedRequest("attach_frame is '" + request.attach_frame +
-                         "': pins that a frame carries are not built yet; allowed: empty");
+    throw RefusedRequest("attach_frame is '" + frame + "'; allowed: empty, or a tf frame, no leading slash");
   }
+}
+
+void pin(const cloth_sim::Pin& request, const Frames& frames, Simulation& simulation, PinAttachments& attachments)
+{
+  check_frame(request.attach_frame);
   if (!request.name.empty())
   {
     check_name(request.name);
@@ -122,6 +134,11 @@ void pin(const cloth_sim::Pin& request, const Frames& frames, Simulation& simula
                                                    "pin_" + std::to_string(model.row_of(nodes.front())) + "_" +
                                                        std::to_string(model.col_of(nodes.front()));
   simulation.hold(name, nodes);
+  attachments.detach(name);
+  if (!request.attach_frame.empty())
+  {
+    attachments.attach(name, request.attach_frame, request.keep_offset != 0);
+  }
 }
 
 void check_known(const std::string& name, const Simulation& simulation)
@@ -143,24 +160,27 @@ void release(const cloth_sim::Pin& request, Simulation& simulation)
   simulation.release(request.name);
 }
 
-void move(const cloth_sim::Pin& request, const Frames& frames, double duration, Simulation& simulation)
+void move(const cloth_sim::Pin& request, const Frames& frames, double duration, Simulation& simulation,
+          PinAttachments& attachments)
 {
   check_known(request.name, simulation);
   simulation.carry(request.name, point_of(request, frames), duration);
+  attachments.detach(request.name);
 }
 
 }  // namespace
 
-void apply_pin(const cloth_sim::Pin& request, const Frames& frames, double duration, Simulation& simulation)
+void apply_pin(const cloth_sim::Pin& request, const Frames& frames, double duration, Simulation& simulation,
+               PinAttachments& attachments)
 {
   switch (request.action)
   {
     case cloth_sim::Pin::PIN:
-      return pin(request, frames, simulation);
+      return pin(request, frames, simulation, attachments);
     case cloth_sim::Pin::RELEASE:
       return release(request, simulation);
     case cloth_sim::Pin::MOVE:
-      return move(request, frames, duration, simulation);
+      return move(request, frames, duration, simulation, attachments);
     default:
       throw RefusedRequest("action is " + std::to_string(request.action) + "; allowed: 0 (PIN), 1 (RELEASE), 2 (MOVE)");
   }

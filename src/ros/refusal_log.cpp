@@ -10,8 +10,10 @@ RefusalLog::RefusalLog(std::function<void(const std::string&)> warn) : warn_(std
 {
 }
 
-void RefusalLog::report(const std::string& cause, Clock::time_point now)
+void RefusalLog::report(const std::string& whole_cause, Clock::time_point now)
 {
+  const std::string cause =
+      whole_cause.size() <= longest_cause ? whole_cause : whole_cause.substr(0, longest_cause) + "...";
   const std::lock_guard<std::mutex> lock(mutex_);
   forget_before(now - quiet_time);
   if (warned_.size() >= max_causes || !warned_.emplace(cause, now).second)

@@ -9,15 +9,17 @@
 namespace cloth
 {
 
-/// Warns once of each cause of refusal, however often it comes: the same text again only after `quiet_time`, and no
-/// more than `max_causes` texts within it. Goes by a steady clock, because ROS time may stand still. May be used from
-/// several threads.
+/// Warns once of each cause of refusal or trouble, however often it comes: the same text again only after `quiet_time`,
+/// and no more than `max_causes` texts within it. Goes by a steady clock, because ROS time may stand still. May be used
+/// from several threads.
 class RefusalLog
 {
 public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds quiet_time{ 5 };
   static constexpr size_t max_causes = 20;
+  /// Characters; of a longer text the beginning is warned.
+  static constexpr size_t longest_cause = 500;
 
   /// `warn` gets the text of each warning.
   explicit RefusalLog(std::function<void(const std::string&)> warn);

@@ -39,16 +39,17 @@ public:
     wind_ = wind;
   }
 
-  /// All that waits, in the order in which it came, the wind last; the queue is empty then.
+  /// All that waits but the wind, in the order in which it came; none waits then.
   std::vector<Request> take_all()
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (wind_)
-    {
-      waiting_.push_back([wind = *wind_](Simulation& simulation) { simulation.set_wind(wind); });
-      wind_.reset();
-    }
     return std::exchange(waiting_, {});
+  }
+  /// The wind, if one was left since the last call.
+  std::optional<Eigen::Vector3d> take_wind()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(wind_, std::nullopt);
   }
 
 private:

@@ -47,6 +47,23 @@ Tick TickClock::step(const ros::Time& now)
   return next_tick(now);
 }
 
+void TickClock::set_pace(double rate, double real_time_factor)
+{
+  if (rate == rate_ && real_time_factor == real_time_factor_)
+  {
+    return;
+  }
+  simulated_begin_ = simulated_time();
+  taken_ = 0;
+  if (!anchor_.isZero())
+  {
+    anchor_ = next_anchor(ros::Duration(1.0 / rate));
+    next_ = 1;
+  }
+  rate_ = rate;
+  real_time_factor_ = real_time_factor;
+}
+
 void TickClock::interrupt()
 {
   anchor_ = ros::Time();
@@ -66,17 +83,39 @@ double TickClock::simulated_period() const
   return (real_time_factor_ == 0.0 ? 1.0 : real_time_factor_) / rate_;
 }
 
+ros::Time TickClock::next_anchor(const ros::Duration& period) const
+{
+  if (real_time_factor_ == 0.0)
+  {
+    return latest_;
+  }
+  const ros::Time last_due = due_time_of(next_ - 1);
+  const bool has_backlog = due_time() <= latest_;
+  return !has_backlog && latest_ - last_due > period ? latest_ - period : last_due;
+}
+
+double TickClock::simulated_time() const
+{
+  const double factor = real_time_factor_ == 0.0 ? 1.0 : real_time_factor_;
+  return simulated_begin_ + static_cast<double>(taken_) * factor / rate_;
+}
+
 ros::Time TickClock::due_time() const
 {
+  return due_time_of(next_);
+}
+
+ros::Time TickClock::due_time_of(std::int64_t tick) const
+{
   ros::Duration after_anchor;
-  after_anchor.fromNSec(std::llround(static_cast<double>(next_) * nanoseconds / rate_));
+  after_anchor.fromNSec(std::llround(static_cast<double>(tick) * nanoseconds / rate_));
   return anchor_ + after_anchor;
 }
 
 Tick TickClock::next_tick(const ros::Time& stamp)
 {
-  const double factor = real_time_factor_ == 0.0 ? 1.0 : real_time_factor_;
-  return { stamp, static_cast<double>(++taken_) * factor / rate_ };
+  ++taken_;
+  return { stamp, simulated_time() };
 }
 
 void TickClock::start_at(const ros::Time& now)

@@ -39,6 +39,10 @@ public:
   /// The next tick, due or not, stamped `now`.
   Tick step(const ros::Time& now);
 
+  /// Another rate and factor from now on: simulated time goes on from where the last tick has led it, and the next tick
+  /// is due one new period after the last, at once where that is over.
+  void set_pace(double rate, double real_time_factor);
+
   /// Leaves out the time until the next call of `take`: what falls due meanwhile is neither caught up nor counted.
   void interrupt();
 
@@ -55,7 +59,12 @@ public:
   }
 
 private:
+  /// s, where the last tick has led
+  double simulated_time() const;
   ros::Time due_time() const;
+  /// What the ticks are counted from when they become `period` long.
+  ros::Time next_anchor(const ros::Duration& period) const;
+  ros::Time due_time_of(std::int64_t tick) const;
   Tick next_tick(const ros::Time& stamp);
   void start_at(const ros::Time& now);
   void drop_backlog(const ros::Time& now);
@@ -65,6 +74,7 @@ private:
   ros::Time anchor_;       ///< the ticks are counted from here, so that no rounding error builds up
   std::int64_t next_ = 0;  ///< number of the next tick after the anchor
   ros::Time latest_;
+  double simulated_begin_ = 0.0;  ///< s, the simulated time from which the ticks taken are counted
   std::uint64_t taken_ = 0;
   std::uint32_t overruns_ = 0;
 };

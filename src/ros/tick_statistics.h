@@ -11,6 +11,7 @@ struct TickReport
   double real_time_factor = 0.0;  ///< simulated seconds for each second of wall time
   double tick_ms_mean = 0.0;      ///< ms; 0 where there was no tick
   double tick_ms_max = 0.0;       ///< ms
+  double rate = 0.0;              ///< ticks for each second of wall time
 };
 
 /// Gathers tick durations, and sums them up once a second of wall time.

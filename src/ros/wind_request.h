@@ -10,7 +10,7 @@ namespace cloth
 {
 
 /// The wind that a message of ~wind asks for: m/s, turned into the cloth's frame. Throws RefusedRequest where it is not
-/// finite or its frame is not known.
+/// finite, faster than 1000 m/s, or its frame is not known.
 Eigen::Vector3d wind_of(const geometry_msgs::Vector3Stamped& request, const Frames& frames);
 
 }  // namespace cloth

@@ -143,6 +143,8 @@ struct RowsOf
     parameter.type = "integer";
     parameter.allowed = "an integer from " + std::to_string(low) + " to " + std::to_string(high);
     parameter.meaning = meaning;
+    parameter.low = low;
+    parameter.high = high;
     parameter.set = [=](const YAML::Node& value, Target& target) {
       const int number = read_integer(value);
       if (number < low || number > high)
@@ -166,6 +168,7 @@ struct RowsOf
     const std::string bounds = range.in_words();
     parameter.allowed = bounds.empty() ? "a finite number" : "a number" + bounds;
     parameter.meaning = meaning;
+    set_bounds(parameter, range);
     parameter.set = [=](const YAML::Node& value, Target& target) {
       const double number = read_number(value);
       if (!range.contains(number))
@@ -192,6 +195,7 @@ struct RowsOf
     parameter.allowed =
         bounds.empty() ? "a list of " + count + " finite numbers" : "a list of " + count + " numbers, each" + bounds;
     parameter.meaning = meaning;
+    set_bounds(parameter, range);
     parameter.set = [=](const YAML::Node& value, Target& target) {
       const YAML::Node list = read_list(value);
       if (list.size() != static_cast<size_t>(size))
@@ -261,6 +265,14 @@ struct RowsOf
     };
     parameter.get = [=](const Target& target) { return access(target); };
     return parameter;
+  }
+
+private:
+  static void set_bounds(Parameter<Target>& parameter, const Range& range)
+  {
+    parameter.low = range.low;
+    parameter.high = range.high;
+    parameter.or_zero = range.or_zero;
   }
 };
 

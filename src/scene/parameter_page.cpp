@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "cloth_sim/scene/parameter_table.h"
+#include "cloth_sim/scene/yaml_text.h"
 
 namespace cloth
 {
@@ -28,6 +29,19 @@ std::string scene_rows(bool node_only)
     rows += parameter.node_only == node_only ? row_of(parameter) : "";
   }
   return rows;
+}
+
+std::string live_keys()
+{
+  std::vector<std::string> keys;
+  for (const Parameter<SceneParams>& parameter : parameter_table())
+  {
+    if (parameter.live)
+    {
+      keys.push_back("- `" + parameter.key + "`\n");
+    }
+  }
+  return joined(keys, "");
 }
 
 std::string pin_rows()
@@ -71,7 +85,14 @@ do not move alike.
 
 Used by `cloth_node` only; `cloth_run` accepts and ignores them.
 
-)" + scene_rows(true);
+)" + scene_rows(true) +
+         R"(
+## While the node runs
+
+These may be changed with dynamic_reconfigure, which calls them by flat names, `_` for `.`, a number of a list by `_x`,
+`_y` or `_z`: `springs_flex_damping`, `air_wind_x`.
+
+)" + live_keys();
 }
 
 }  // namespace cloth

@@ -73,6 +73,12 @@ Parameter<SceneParams> for_node(Parameter<SceneParams> parameter)
   return parameter;
 }
 
+Parameter<SceneParams> live(Parameter<SceneParams> parameter)
+{
+  parameter.live = true;
+  return parameter;
+}
+
 // An accessor that serves for reading and for writing.
 #define CLOTH_MEMBER(path)  \
   [](auto& target) -> auto& \
@@ -86,7 +92,7 @@ std::vector<Parameter<SceneParams>> make_table()
   return {
     Scene::text("frame_id", is_frame, "a tf frame: not empty, no leading slash",
                 "the frame in which everything else is given, z up", CLOTH_MEMBER(frame_id)),
-    Scene::vector("gravity", "m/s2", any, "acceleration of a free fall", CLOTH_MEMBER(gravity)),
+    live(Scene::vector("gravity", "m/s2", any, "acceleration of a free fall", CLOTH_MEMBER(gravity))),
 
     Scene::integer("cloth.rows", 1, 4096, "nodes down the sheet; 1 is a chain across", CLOTH_MEMBER(sheet.rows)),
     Scene::integer("cloth.cols", 1, 4096, "nodes across the sheet; 1 is a chain down; two nodes at least in all",
@@ -117,64 +123,87 @@ std::vector<Parameter<SceneParams>> make_table()
                   "amplitude of a smooth asymmetric displacement along the normal at the start",
                   CLOTH_MEMBER(start.ripple)),
 
-    Scene::number("springs.structural.stiffness", "N/m", not_negative, "against stretch; 0 leaves these springs out",
-                  CLOTH_MEMBER(sheet.structural.stiffness)),
-    Scene::number("springs.structural.damping", "N s/m", not_negative, "internal damping of structural springs",
-                  CLOTH_MEMBER(sheet.structural.damping)),
-    Scene::number("springs.shear.stiffness", "N/m", not_negative, "against shear; 0 leaves these springs out",
-                  CLOTH_MEMBER(sheet.shear.stiffness)),
-    Scene::number("springs.shear.damping", "N s/m", not_negative, "internal damping of shear springs",
-                  CLOTH_MEMBER(sheet.shear.damping)),
-    Scene::number("springs.flex.stiffness", "N/m", not_negative, "against bending; 0 leaves these springs out",
-                  CLOTH_MEMBER(sheet.flex.stiffness)),
-    Scene::number("springs.flex.damping", "N s/m", not_negative, "internal damping of flex springs",
-                  CLOTH_MEMBER(sheet.flex.damping)),
+    live(Scene::number("springs.structural.stiffness", "N/m", not_negative,
+                       "against stretch; 0 leaves these springs out", CLOTH_MEMBER(sheet.structural.stiffness))),
+    live(Scene::number("springs.structural.damping", "N s/m", not_negative, "internal damping of structural springs",
+                       CLOTH_MEMBER(sheet.structural.damping))),
+    live(Scene::number("springs.shear.stiffness", "N/m", not_negative, "against shear; 0 leaves these springs out",
+                       CLOTH_MEMBER(sheet.shear.stiffness))),
+    live(Scene::number("springs.shear.damping", "N s/m", not_negative, "internal damping of shear springs",
+                       CLOTH_MEMBER(sheet.shear.damping))),
+    live(Scene::number("springs.flex.stiffness", "N/m", not_negative, "against bending; 0 leaves these springs out",
+                       CLOTH_MEMBER(sheet.flex.stiffness))),
+    live(Scene::number("springs.flex.damping", "N s/m", not_negative, "internal damping of flex springs",
+                       CLOTH_MEMBER(sheet.flex.damping))),
 
-    Scene::number("strain_limit.max_strain", "", not_negative,
-                  "structural and shear springs are not stretched beyond this; 0: no limit",
-                  CLOTH_MEMBER(strain_limit.max_strain)),
-    Scene::integer("strain_limit.sweeps", 1, 100000, "most passes over the springs after a step",
-                   CLOTH_MEMBER(strain_limit.sweeps)),
+    live(Scene::number("strain_limit.max_strain", "", not_negative,
+                       "structural and shear springs are not stretched beyond this; 0: no limit",
+                       CLOTH_MEMBER(strain_limit.max_strain))),
+    live(Scene::integer("strain_limit.sweeps", 1, 100000, "most passes over the springs after a step",
+                        CLOTH_MEMBER(strain_limit.sweeps))),
 
-    Scene::number("air.viscous_damping", "N s/m per m2", not_negative, "drag of the air at rest, in any direction",
-                  CLOTH_MEMBER(air.viscous_damping)),
-    Scene::number("air.wind_coupling", "N s/m per m2", not_negative,
-                  "how the air's velocity relative to the sheet acts along its normals; 0: no normals are computed",
-                  CLOTH_MEMBER(air.wind_coupling)),
-    Scene::vector("air.wind", "m/s", any, "velocity of the air: the way it moves", CLOTH_MEMBER(air.wind)),
+    live(Scene::number("air.viscous_damping", "N s/m per m2", not_negative, "drag of the air at rest, in any direction",
+                       CLOTH_MEMBER(air.viscous_damping))),
+    live(
+        Scene::number("air.wind_coupling", "N s/m per m2", not_negative,
+                      "how the air's velocity relative to the sheet acts along its normals; 0: no normals are computed",
+                      CLOTH_MEMBER(air.wind_coupling))),
+    live(Scene::vector("air.wind", "m/s", any, "velocity of the air: the way it moves", CLOTH_MEMBER(air.wind))),
+    Scene::number("air.gusts.strength", "m/s", not_negative,
+                  "root mean square of each component of smooth gusts, which are added to the wind, also to that of "
+                  "~wind; 0: none",
+                  CLOTH_MEMBER(air.gusts.strength)),
+    Scene::number("air.gusts.time_scale", "s", positive, "how long a gust lasts", CLOTH_MEMBER(air.gusts.time_scale)),
+    Scene::integer("air.gusts.seed", 0, 2147483647, "the same seed is the same gusts at the same simulated time",
+                   CLOTH_MEMBER(air.gusts.seed)),
 
-    Scene::choice("solver.method", method_words(), "time-stepping method; auto is velocity_verlet",
-                  CLOTH_MEMBER(solver.method)),
-    Scene::number(
+    live(Scene::choice("solver.method", method_words(), "time-stepping method; auto is velocity_verlet",
+                       CLOTH_MEMBER(solver.method))),
+    live(Scene::number(
         "solver.time_step", "s", Range{ 1e-9, true, infinity, true },
         "largest step; 0: 0.9 of the method's stability limit as the cloth deforms, 1/240 where there is no limit; "
         "dopri5: the largest step, 0: none",
-        CLOTH_MEMBER(solver.time_step)),
-    Scene::number("solver.tolerance", "m", positive,
-                  "dopri5: bounds the estimated position error of a step; auto does not use it yet",
-                  CLOTH_MEMBER(solver.tolerance)),
-    Scene::integer("solver.iterations", 1, 10000, "projective: local-global iterations a step; xpbd: substeps a step",
-                   CLOTH_MEMBER(solver.iterations)),
-    Scene::number("solver.compliance", "", unit_interval,
-                  "xpbd: factor on the springs' compliance 1/k; 1: stiffness means the same as in every other method, "
-                  "0: position-based dynamics",
-                  CLOTH_MEMBER(solver.compliance)),
+        CLOTH_MEMBER(solver.time_step))),
+    live(Scene::number("solver.tolerance", "m", Range{ 1e-12, true },
+                       "dopri5: bounds the estimated position error of a step; auto does not use it yet",
+                       CLOTH_MEMBER(solver.tolerance))),
+    live(Scene::integer("solver.iterations", 1, 10000,
+                        "projective: local-global iterations a step; xpbd: substeps a step",
+                        CLOTH_MEMBER(solver.iterations))),
+    live(Scene::number(
+        "solver.compliance", "", unit_interval,
+        "xpbd: factor on the springs' compliance 1/k; 1: stiffness means the same as in every other method, "
+        "0: position-based dynamics",
+        CLOTH_MEMBER(solver.compliance))),
     Scene::integer(
         "solver.threads", 0, 64,
         "the most threads that share a step, where the sheet is large enough to gain by it; 0: 2, or as many "
         "as this machine has if fewer; the result is the same to the last bit for any number",
         CLOTH_MEMBER(solver.threads)),
 
-    for_node(Scene::number("rate", "Hz", Range{ 0.0, false, 1000.0 }, "ticks a second, one published mesh each",
-                           CLOTH_MEMBER(node.rate))),
-    for_node(Scene::number("real_time_factor", "", not_negative, "simulated seconds in a second; 0: as fast as it can",
-                           CLOTH_MEMBER(node.real_time_factor))),
+    for_node(live(Scene::number("rate", "Hz", Range{ 1e-3, true, 1000.0 }, "ticks a second, one published mesh each",
+                                CLOTH_MEMBER(node.rate)))),
+    for_node(
+        live(Scene::number("real_time_factor", "", not_negative, "simulated seconds in a second; 0: as fast as it can",
+                           CLOTH_MEMBER(node.real_time_factor)))),
     for_node(Scene::choice("clock_mode", { "follow", "master" },
                            "follow: paced by ROS time; master: publishes /clock, paced by wall time, one message a "
                            "tick; rate and real_time_factor count by wall time then",
                            CLOTH_MEMBER(node.clock_mode))),
     for_node(Scene::choice("start_paused", { "false", "true" }, "whether time stands still at the start",
                            CLOTH_MEMBER(node.start_paused))),
+    for_node(Scene::number("tf_pins.top_speed", "m/s", positive,
+                           "the fastest, in simulated time, that a pin follows the tf frame that carries it; where the "
+                           "frame jumps it catches up at this speed",
+                           CLOTH_MEMBER(node.tf_pins.top_speed))),
+    for_node(Scene::number("tf_pins.max_age", "s", not_negative,
+                           "a pin holds its place while the latest transform of its frame is older, or farther in the "
+                           "future; 0: of any age will do",
+                           CLOTH_MEMBER(node.tf_pins.max_age))),
+    for_node(
+        Scene::number("wind_timeout", "s", not_negative,
+                      "so long after the last message on ~wind, in ROS time, the scene's wind blows again; 0: never",
+                      CLOTH_MEMBER(node.wind_timeout))),
     for_node(Scene::choice("display.colouring", { "fabric", "strain" },
                            "colour of the mesh: the fabric's, or the strain of the springs at each node",
                            CLOTH_MEMBER(node.colouring))),

@@ -51,6 +51,11 @@ PlanLine viscous_damping_line(const SceneParams& scene)
            coefficient > 0.0 ? format_number(coefficient) + " N s/m per m2" : "the coefficient is 0" };
 }
 
+std::string gusts_in_words(const GustProperties& gusts)
+{
+  return gusts.strength == 0.0 ? "" : " with gusts of " + format_number(gusts.strength) + " m/s";
+}
+
 PlanLine wind_line(const SceneParams& scene)
 {
   if (scene.air.wind_coupling == 0.0)
@@ -63,7 +68,7 @@ PlanLine wind_line(const SceneParams& scene)
   }
   return { "wind", true,
            format_number(scene.air.wind_coupling) + " N s/m per m2, air at " + format_number(scene.air.wind.norm()) +
-               " m/s; still air drags too" };
+               " m/s" + gusts_in_words(scene.air.gusts) + "; still air drags too" };
 }
 
 PlanLine strain_limit_line(const SceneParams& scene)
@@ -135,21 +140,22 @@ PlanLine method_line(const SceneParams& scene)
                format_number(scene.solver.tolerance) + " m is not used yet" };
 }
 
-}  // namespace
+constexpr const char* start_part = "start";
 
-Plan make_plan(const SceneParams& scene)
+void require_fitting_compliance(const SolverParams& solver)
 {
-  if (scene.solver.compliance != 1.0 && scene.solver.method != "xpbd")
+  if (solver.compliance != 1.0 && solver.method != "xpbd")
   {
-    throw SceneError("solver.compliance: " + format_number(scene.solver.compliance) +
-                     ", but only xpbd has a compliance of its own; 1 is allowed with solver.method " +
-                     scene.solver.method);
+    throw SceneError("solver.compliance: " + format_number(solver.compliance) +
+                     ", but only xpbd has a compliance of its own; 1 is allowed with solver.method " + solver.method);
   }
+}
+
+Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneStart& start)
+{
   Plan plan;
   plan.scene = scene;
   plan.method = find_method(scene.solver.method == "auto" ? automatic_method : scene.solver.method);
-  const ClothModel model = make_sheet(scene.sheet);
-  const SceneStart start = scene_start(scene, model);
   plan.start = start.state;
   plan.lines = {
     spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),
@@ -160,7 +166,7 @@ Plan make_plan(const SceneParams& scene)
     wind_line(scene),
     strain_limit_line(scene),
     pin_line(pins_of(scene.pins, model, model.rest_positions)),
-    { "start", true, start.description },
+    { start_part, true, start.description },
     method_line(scene),
   };
   if (!strain_limit_line(scene).kept)
@@ -170,7 +176,7 @@ Plan make_plan(const SceneParams& scene)
   return plan;
 }
 
-Simulation build_simulation(const Plan& plan)
+SimulationSetup setup_of(const Plan& plan)
 {
   const SceneParams& scene = plan.scene;
   SimulationSetup setup;
@@ -184,14 +190,67 @@ Simulation build_simulation(const Plan& plan)
   setup.threads = scene.solver.threads;
   setup.start = plan.start;
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
-  Simulation simulation(std::move(setup));
-  if (!(simulation.time_step() >= Simulation::shortest_step))
+  return setup;
+}
+
+/// `given` is the step of the scene, s.
+void require_a_stable_step(double given, const Simulation& simulation)
+{
+  if (!simulation.method().is_adaptive && !(simulation.time_step() >= Simulation::shortest_step))
   {
-    throw SceneError("solver.time_step: 0, to be chosen from the stability limit, but no step of " +
-                     std::string(simulation.method().name) +
-                     " is stable for this scene, since nothing damps some of its modes; damp the air and the springs, "
-                     "give a step and watch it grow, or take another method");
+    throw SceneError(
+        "solver.time_step: " +
+        (given == 0.0 ? std::string("0, to be chosen from") : format_number(given) + ", to be kept within") +
+        " the stability limit, but no step of " + std::string(simulation.method().name) +
+        " is stable for this scene, since nothing damps some of its modes; damp the air and the springs, "
+        "give a step and watch it grow, or take another method");
   }
+}
+
+/// No method can step with forces whose squares overflow.
+void require_forces_to_reckon_with(const Simulation& simulation)
+{
+  const ClothState& state = simulation.state();
+  Vectors accelerations;
+  simulation.dynamics().accelerations(state.time, state.positions, state.velocities, accelerations);
+  if (!std::isfinite(accelerations.squaredNorm()))
+  {
+    throw SceneError("the forces on the cloth as it is would be too large to reckon with; take smaller values");
+  }
+}
+
+}  // namespace
+
+Plan make_plan(const SceneParams& scene)
+{
+  require_fitting_compliance(scene.solver);
+  const ClothModel model = make_sheet(scene.sheet);
+  return plan_with(scene, model, scene_start(scene, model));
+}
+
+Plan live_plan(const Plan& running, const SceneParams& scene)
+{
+  require_fitting_compliance(scene.solver);
+  SceneStart start{ running.start, {} };
+  for (const PlanLine& line : running.lines)
+  {
+    start.description = line.part == start_part ? line.reason : start.description;
+  }
+  return plan_with(scene, make_sheet(scene.sheet), start);
+}
+
+Simulation build_simulation(const Plan& plan)
+{
+  Simulation simulation(setup_of(plan));
+  require_a_stable_step(plan.scene.solver.time_step, simulation);
+  return simulation;
+}
+
+Simulation carry_on(const Plan& plan, const Simulation& running)
+{
+  Simulation simulation = running.gone_over_to(setup_of(plan));
+  require_forces_to_reckon_with(simulation);
+  require_a_stable_step(plan.scene.solver.time_step, simulation);
   return simulation;
 }
 
@@ -209,6 +268,11 @@ std::string described_step(double given, const Simulation& simulation)
            "; steps beyond its stability limit, " + limit + ", would be rejected";
   }
   const std::string step = format_number(simulation.time_step()) + " s, ";
+  if (given > simulation.time_step())
+  {
+    return step + format_number(Simulation::limit_share) + " of the stability limit of " + name + ", " + limit +
+           ", which the " + format_number(given) + " s of the scene are beyond";
+  }
   if (given > 0.0)
   {
     return step + "as the scene says; the stability limit of " + name + " is " + limit;

@@ -12,19 +12,26 @@ namespace cloth
 namespace
 {
 
+/// The longest that a node of a pin is carried, m.
+double longest_way(const Pin& pin)
+{
+  const double farthest_from_pivot = pin.reach() + (pin.held_middle() - pin.carry.pivot).norm();
+  return (pin.carry.to - pin.carry.from).norm() + pin.carry.turn.norm() * farthest_from_pivot;
+}
+
 /// The fastest that a pin can move, m/s.
 double top_speed(const Pin& pin)
 {
   constexpr double two_pi = 6.283185307179586;
   const double carry_time = pin.carry.end - pin.carry.start;
-  const double carry_speed = carry_time > 0.0 ? (pin.carry.to - pin.carry.from).norm() / carry_time : 0.0;
+  const double carry_speed = carry_time > 0.0 ? longest_way(pin) / carry_time : 0.0;
   return two_pi * pin.oscillation.frequency * pin.oscillation.amplitude.norm() + carry_speed;
 }
 
 /// The farthest that a pin can move, m.
 double reach(const Pin& pin)
 {
-  return 2.0 * pin.oscillation.amplitude.norm() + (pin.carry.to - pin.carry.from).norm();
+  return 2.0 * pin.oscillation.amplitude.norm() + longest_way(pin);
 }
 
 /// The elastic energy of the sheet drawn out evenly by `distance` along its shorter side, J.
@@ -57,8 +64,9 @@ double pin_motion_energy(const Dynamics& dynamics)
 /// The most that the wind can do in a second: C (u - v) . v is largest at v = u/2.
 double wind_power(const Dynamics& dynamics)
 {
-  const AirProperties& air = dynamics.air().properties();
-  return 0.25 * air.wind_coupling * dynamics.model().areas.sum() * air.wind.squaredNorm();
+  const double top_speed = dynamics.air().top_speed();
+  const double coupling = dynamics.air().properties().wind_coupling;
+  return 0.25 * coupling * dynamics.model().areas.sum() * top_speed * top_speed;
 }
 
 int first_not_finite(const ClothState& state)

@@ -57,14 +57,47 @@ Simulation::Simulation(SimulationSetup setup)
   changed_from_outside();
 }
 
+Simulation Simulation::gone_over_to(SimulationSetup setup) const
+{
+  setup.pins = pins().all();
+  setup.start = state_;
+  Simulation next(std::move(setup));
+  next.keeps_within_limit_ = true;
+  next.last_step_ = last_step_;
+  next.divergence_ = divergence_;
+  next.counters_ = counters_;
+  next.measures_reactions_ = measures_reactions_;
+  next.measured_since_ = measured_since_;
+  next.velocities_before_ = velocities_before_;
+  next.impulses_ = impulses_;
+  const bool has_lower_limit =
+      !strain_limit_.active() || next.strain_limit_.properties().max_strain < strain_limit_.properties().max_strain;
+  if (next.strain_limit_.active() && has_lower_limit)
+  {
+    next.shorten_at_no_speed();
+  }
+  return next;
+}
+
+void Simulation::shorten_at_no_speed()
+{
+  constexpr int most_sweeps = 1000;
+  constexpr double in_no_hurry = std::numeric_limits<double>::infinity();
+  StrainLimit limit(model(), { strain_limit_.properties().max_strain, most_sweeps });
+  limit.apply(model(), pins(), in_no_hurry, state_);
+  changed_from_outside();
+}
+
 void Simulation::step(double h)
 {
   const double begin = state_.time;
+  method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
   const StepReport report = method_->step(dynamics_, h, state_);
   last_step_ = state_.time - begin;
   if (strain_limit_.active())
   {
-    const StrainLimit::Report limit_report = strain_limit_.apply(model(), pins(), last_step_, state_);
+    const StrainLimit::Report limit_report =
+        strain_limit_.apply(model(), pins(), last_step_, state_, measures_reactions_ ? &impulses_ : nullptr);
     if (limit_report.moved)
     {
       method_->restart();
@@ -78,7 +111,7 @@ void Simulation::step(double h)
   ++counters_.steps;
 }
 
-bool Simulation::advance_to(double time)
+bool Simulation::advance_to(double time, const std::function<bool()>& stops)
 {
   double longest = longest_step();
   while (!divergence_ && state_.time < time)
@@ -98,6 +131,10 @@ bool Simulation::advance_to(double time)
       take_equal_steps(time, longest);
     }
     keep_or_restore();
+    if (state_.time < time && stops && stops())
+    {
+      break;
+    }
     if (state_.time < time)
     {
       longest = std::min(longest, longest_step());
@@ -163,15 +200,20 @@ double Simulation::time_step() const
 
 double Simulation::longest_step() const
 {
-  if (given_time_step_ > 0.0)
+  if (method_row_->is_adaptive)
+  {
+    return given_time_step_ > 0.0 ? given_time_step_ : std::numeric_limits<double>::infinity();
+  }
+  return given_time_step_ > 0.0 && !keeps_within_limit_ ? given_time_step_ : limited_step();
+}
+
+double Simulation::limited_step() const
+{
+  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
+  if (given_time_step_ > 0.0 && given_time_step_ <= limit)
   {
     return given_time_step_;
   }
-  if (method_row_->is_adaptive)
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
   return std::isfinite(limit) ? limit_share * limit : unlimited_time_step;
 }
 
@@ -196,6 +238,37 @@ std::string Simulation::divergence_report() const
   }
   text << " or softer springs";
   return text.str();
+}
+
+void Simulation::measure_reactions(bool measure)
+{
+  measures_reactions_ = measure;
+  if (measure)
+  {
+    measured_since_ = state_.time;
+    velocities_before_ = state_.velocities;
+    impulses_.setZero(model().nodes(), 3);
+  }
+}
+
+Wrench Simulation::reaction_on(const Pin& pin) const
+{
+  Wrench wrench;
+  const double duration = state_.time - measured_since_;
+  if (!measures_reactions_ || duration <= 0.0)
+  {
+    return wrench;
+  }
+  const Eigen::RowVector3d middle = state_.positions(pin.nodes, Eigen::all).colwise().mean();
+  for (const int node : pin.nodes)
+  {
+    const Eigen::RowVector3d change = state_.velocities.row(node) - velocities_before_.row(node);
+    const Eigen::Vector3d force = (impulses_.row(node) - model().masses[node] * change).transpose() / duration;
+    const Eigen::Vector3d arm = (state_.positions.row(node) - middle).transpose();
+    wrench.force += force;
+    wrench.torque += arm.cross(force);
+  }
+  return wrench;
 }
 
 void Simulation::set_wind(const Eigen::Vector3d& wind)
@@ -228,8 +301,22 @@ void Simulation::release_all()
 bool Simulation::carry(const std::string& name, const Eigen::Vector3d& target, double duration)
 {
   const bool carried = dynamics_.pins().carry(name, target, state_.time, state_.time + duration);
-  guard_.allow_pin_motion(dynamics_);
+  pins_sent_elsewhere();
   return carried;
+}
+
+bool Simulation::carry(const std::string& name, const Eigen::Isometry3d& placement, const Eigen::Vector3d& pivot,
+                       double end)
+{
+  const bool carried = dynamics_.pins().carry(name, placement, pivot, state_.time, end);
+  pins_sent_elsewhere();
+  return carried;
+}
+
+void Simulation::pins_sent_elsewhere()
+{
+  method_->restart();
+  guard_.allow_pin_motion(dynamics_);
 }
 
 }  // namespace cloth

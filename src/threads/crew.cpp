@@ -120,7 +120,7 @@ struct Crew::Members
   std::mutex mutex;
   std::condition_variable called;
   int sleepers = 0;
-  bool has_ended = false;
+  std::atomic<bool> has_ended{ false };
   Task task;
   std::vector<std::thread> others;
   // In lines of the cache of their own: one is looked at while the other is written.

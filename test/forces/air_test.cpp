@@ -23,12 +23,12 @@ protected:
   Vectors forces_of(const Air& air, const Vectors& velocities) const
   {
     Vectors forces = Vectors::Zero(model_.nodes(), 3);
-    air.add_forces(model_, positions_, velocities, forces);
+    air.add_forces(model_, 0.0, positions_, velocities, forces);
     return forces;
   }
 
   const ClothModel model_ = make_sheet(small_sheet());
-  const AirProperties properties_{ 0.4, 1.7, { 1.0, 2.0, -0.5 } };
+  const AirProperties properties_{ 0.4, 1.7, { 1.0, 2.0, -0.5 }, {} };
   Vectors positions_;
   Vectors velocities_;
   Vectors normals_;
@@ -50,14 +50,14 @@ TEST_F(AirOnASheet, ForceIsProvotsAtEveryNode)
 TEST_F(AirOnASheet, WindAlongASheetDoesNothing)
 {
   Vectors forces = Vectors::Zero(model_.nodes(), 3);
-  const Air air({ 0.0, 1.7, { 3.0, 0.0, 4.0 } });
-  air.add_forces(model_, model_.rest_positions, forces, forces);
+  const Air air({ 0.0, 1.7, { 3.0, 0.0, 4.0 }, {} });
+  air.add_forces(model_, 0.0, model_.rest_positions, forces, forces);
   EXPECT_LT(forces.cwiseAbs().maxCoeff(), 1e-15);
 }
 
 TEST_F(AirOnASheet, WithoutCouplingOnlyDragIsLeft)
 {
-  const Vectors forces = forces_of(Air({ 0.4, 0.0, { 1.0, 2.0, -0.5 } }), velocities_);
+  const Vectors forces = forces_of(Air({ 0.4, 0.0, { 1.0, 2.0, -0.5 }, {} }), velocities_);
   EXPECT_TRUE(forces.isApprox((velocities_.array().colwise() * (-0.4 * model_.areas.array())).matrix(), 1e-14));
 }
 
@@ -66,7 +66,7 @@ TEST_F(AirOnASheet, ImplicitDampingSolvesItsEquation)
   const Air air(properties_);
   const double h = 0.3;
   Vectors after = velocities_;
-  air.damp_implicitly(model_, positions_, h, after);
+  air.damp_implicitly(model_, 0.0, positions_, h, after);
   // m (v_after - v) = h f(v_after)
   const Vectors change = (after - velocities_).array().colwise() * model_.masses.array();
   EXPECT_TRUE(change.isApprox(h * forces_of(air, after), 1e-12));
@@ -83,9 +83,9 @@ TEST_F(AirOnASheet, DampingRateIsTheFastestOfAnyNode)
 TEST(AirOnAChain, IsDragAlone)
 {
   const ClothModel model = make_sheet(small_sheet(6, 1));
-  const Air air({ 0.4, 1.7, { 1.0, 2.0, -0.5 } });
+  const Air air({ 0.4, 1.7, { 1.0, 2.0, -0.5 }, {} });
   Vectors forces = Vectors::Zero(model.nodes(), 3);
-  air.add_forces(model, model.rest_positions, Vectors::Zero(model.nodes(), 3), forces);
+  air.add_forces(model, 0.0, model.rest_positions, Vectors::Zero(model.nodes(), 3), forces);
   EXPECT_TRUE(forces.isZero(0.0));
   EXPECT_DOUBLE_EQ(air.damping_rate(model), 0.4 * model.areas[0] / model.masses[0]);
 }

@@ -30,7 +30,7 @@ public:
   static constexpr int samples = 5;
   static constexpr double end = 0.1;  // s
 
-  Scene() : dynamics_(make_sheet(small_sheet()), { 0.0, 0.0, -9.81 }, { 0.3, 1.1, { 0.4, 2.0, 0.0 } })
+  Scene() : dynamics_(make_sheet(small_sheet()), { 0.0, 0.0, -9.81 }, { 0.3, 1.1, { 0.4, 2.0, 0.0 }, {} })
   {
     StartParams shape;
     shape.ripple = 0.01;

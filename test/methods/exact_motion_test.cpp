@@ -263,7 +263,7 @@ TEST_P(EveryMethod, FallsWithDragAsTheFormulaSays)
   // v = (m g/c)(1 - e^(-c t/m)), of a sheet that falls edge on: no normal meets the air.
   const double end = 0.8;
   SheetProperties sheet = small_sheet();
-  const AirProperties air{ 0.9, 0.0, Eigen::Vector3d::Zero() };
+  const AirProperties air{ 0.9, 0.0, Eigen::Vector3d::Zero(), {} };
   const double rate = 0.9 * sheet.width * sheet.height / sheet.mass;
   const double exact = 9.81 / rate * (1.0 - std::exp(-rate * end));
   const Dynamics dynamics(make_sheet(sheet), { 0.0, 0.0, -9.81 }, air);
@@ -288,7 +288,7 @@ TEST_P(EveryMethod, FallsWithDragAsTheFormulaSays)
 TEST_P(EveryMethod, FallsBroadsideAtItsTerminalSpeed)
 {
   SheetProperties sheet = small_sheet();
-  const AirProperties air{ 0.5, 1.5, Eigen::Vector3d::Zero() };
+  const AirProperties air{ 0.5, 1.5, Eigen::Vector3d::Zero(), {} };
   const Dynamics dynamics(make_sheet(sheet), { 0.0, 0.0, -9.81 }, air);
   ClothState state{ dynamics.model().rest_positions, Vectors::Zero(dynamics.model().nodes(), 3), 0.0 };
   state.positions.col(1).swap(state.positions.col(2));  // lies in the x-y plane
@@ -306,7 +306,7 @@ TEST_P(EveryMethod, IsBlownAlongItsNormalUntilItMovesWithTheAir)
 {
   // Without gravity and viscous damping: v_n = u_n (1 - e^(-C_vi t/m)).
   SheetProperties sheet = small_sheet();
-  const AirProperties air{ 0.0, 1.2, { 0.0, 3.0, 0.0 } };
+  const AirProperties air{ 0.0, 1.2, { 0.0, 3.0, 0.0 }, {} };
   const double rate = 1.2 * sheet.width * sheet.height / sheet.mass;
   const Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), air);
   ClothState state{ dynamics.model().rest_positions, Vectors::Zero(dynamics.model().nodes(), 3), 0.0 };

@@ -19,7 +19,8 @@ namespace
 class ManufacturedMotion : public Dynamics
 {
 public:
-  ManufacturedMotion() : Dynamics(make_sheet(small_sheet()), Eigen::Vector3d::Zero(), { 0.3, 1.1, { 0.4, 2.0, 0.0 } })
+  ManufacturedMotion()
+    : Dynamics(make_sheet(small_sheet()), Eigen::Vector3d::Zero(), { 0.3, 1.1, { 0.4, 2.0, 0.0 }, {} })
   {
     const ClothModel& sheet = model();
     amplitudes_.resize(sheet.nodes(), 3);
@@ -50,7 +51,7 @@ public:
     const Vectors v = velocities_at(time);
     Vectors acting = Vectors::Zero(model().nodes(), 3);
     add_spring_forces(model(), x, v, acting);
-    air().add_forces(model(), x, v, acting);
+    air().add_forces(model(), time, x, v, acting);
     const Vectors accelerations = amplitudes_ * (-turns() * turns() * std::sin(angle(time)));
     const Vectors all = (accelerations.array().colwise() * model().masses.array()).matrix() - acting;
     external.middleRows(nodes.begin, nodes.size()) = all.middleRows(nodes.begin, nodes.size());
@@ -138,7 +139,7 @@ TEST_P(Order, IsTheClaimedOneOnAManufacturedMotion)
 
 TEST_P(Order, IsTheClaimedOneOnASheetInWind)
 {
-  Dynamics dynamics(make_sheet(small_sheet()), { 0.0, 0.0, -9.81 }, { 0.3, 1.1, { 0.4, 2.0, 0.0 } });
+  Dynamics dynamics(make_sheet(small_sheet()), { 0.0, 0.0, -9.81 }, { 0.3, 1.1, { 0.4, 2.0, 0.0 }, {} });
   const double end = 0.25;
   StartParams shape;
   shape.ripple = 0.01;

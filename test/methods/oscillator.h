@@ -21,7 +21,7 @@ public:
   Oscillator(const char* method, double frequency, double air_ratio, double spring_ratio,
              const MethodSettings& settings)
     : dynamics_(make_sheet(sheet(frequency, spring_ratio)), Eigen::Vector3d::Zero(),
-                { air_viscosity(frequency, air_ratio), 0.0, Eigen::Vector3d::Zero() })
+                { air_viscosity(frequency, air_ratio), 0.0, Eigen::Vector3d::Zero(), {} })
     , method_(find_method(method)->make(settings))
   {
     const Vectors& rest = dynamics_.model().rest_positions;

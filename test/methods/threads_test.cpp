@@ -19,7 +19,7 @@ protected:
   {
     constexpr int rows = 25;
     constexpr int cols = 37;
-    Dynamics dynamics(make_sheet(small_sheet(rows, cols)), { 0.0, 0.0, -9.81 }, { 0.3, 1.0, { 1.0, 2.0, 0.0 } });
+    Dynamics dynamics(make_sheet(small_sheet(rows, cols)), { 0.0, 0.0, -9.81 }, { 0.3, 1.0, { 1.0, 2.0, 0.0 }, {} });
     dynamics.use_threads(threads);
     Noise noise;
     const ClothModel& model = dynamics.model();

@@ -1,13 +1,17 @@
+#include <cmath>
 #include <csignal>
 
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
+#include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/Marker.h>
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothStats.h"
+#include "cloth_sim/Pin.h"
 
 #include "child_process.h"
+#include "frame_message.h"
 #include "listener.h"
 #include "time_services.h"
 
@@ -167,6 +171,32 @@ TEST_F(SimulatedTime, TheClothGoesOnWhenTheClockJumpsBackwards)
   ASSERT_TRUE(drive_for_states(10));
   expect_ticks_of_equal_length();
   EXPECT_LT(state_.last().header.stamp, ros::Time(60.0));
+}
+
+TEST_F(SimulatedTime, APinGoesOnAfterItsFrameWhenTheClockJumpsBackwards)
+{
+  tf2_ros::TransformBroadcaster broadcaster;
+  ros::Publisher pins = node_.advertise<cloth_sim::Pin>("/cloth_node/pin", 10, true);
+  cloth_sim::Pin pin;
+  pin.action = cloth_sim::Pin::PIN;
+  pin.name = "left";
+  pin.attach_frame = "gripper";
+  pins.publish(pin);
+  const auto drive_to = [&](double y, const ros::Time& earliest, const ros::Time& latest) {
+    return drive_until([&] {
+      const Eigen::Isometry3d place(Eigen::Translation3d(-0.5, y, 1.5));
+      broadcaster.sendTransform(frame_message("gripper", place, now_));
+      return !state_.all().empty() && std::abs(state_.last().positions[1] - y) < 1e-6 &&
+             state_.last().header.stamp >= earliest && state_.last().header.stamp <= latest;
+    });
+  };
+  const ros::Time begin = now_;
+  const ros::Duration long_enough(10.0);
+  EXPECT_TRUE(drive_to(0.2, begin, begin + long_enough));
+  EXPECT_TRUE(drive_to(0.3, begin, begin + long_enough));
+  const ros::Time back(20.0);
+  show_time(back);
+  EXPECT_TRUE(drive_to(0.1, back, back + long_enough));
 }
 
 TEST_F(SimulatedTime, ALeapForwardIsDroppedAndCounted)

@@ -72,5 +72,23 @@ TEST(ToPoint, IsARow)
   EXPECT_EQ(to_eigen(to_point(rows, 1)), Eigen::Vector3d(4, 5, 6));
 }
 
+TEST(ToParameter, GivesEachValueItsType)
+{
+  const XmlRpc::XmlRpcValue parameter =
+      to_parameter(YAML::Load("{a: 3, b: 0.25, c: word, d: [1.0e-05, -2], e: {f: true}}"));
+  const auto at = [&](const char* name) { return const_cast<XmlRpc::XmlRpcValue&>(parameter)[name]; };
+  EXPECT_EQ(static_cast<int>(at("a")), 3);
+  EXPECT_EQ(static_cast<double>(at("b")), 0.25);
+  EXPECT_EQ(static_cast<std::string>(at("c")), "word");
+  EXPECT_EQ(static_cast<double>(at("d")[0]), 1e-5);
+  EXPECT_EQ(static_cast<int>(at("d")[1]), -2);
+  EXPECT_TRUE(static_cast<bool>(at("e")["f"]));
+}
+
+TEST(ToParameter, AnEmptyListStaysAList)
+{
+  EXPECT_EQ(to_parameter(YAML::Load("[]")).getType(), XmlRpc::XmlRpcValue::TypeArray);
+}
+
 }  // namespace
 }  // namespace cloth

@@ -18,11 +18,11 @@ std::future<Answer> sent(Errands& errands, const Errands::Errand& errand)
   return std::async(std::launch::async, [&errands, errand] { return errands.send(errand); });
 }
 
-Answer done(const Errands::Doer& doer, std::future<Answer>& answer)
+Answer done(Errands& errands, std::future<Answer>& answer)
 {
   while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready)
   {
-    doer.do_all();
+    errands.do_all();
   }
   return answer.get();
 }
@@ -36,7 +36,7 @@ TEST(Errands, AreAnsweredByTheDoersThread)
     thread = std::this_thread::get_id();
     return Answer{ true, "done" };
   });
-  EXPECT_EQ(done(doer, answer).message, "done");
+  EXPECT_EQ(done(errands, answer).message, "done");
   EXPECT_EQ(thread, std::this_thread::get_id());
 }
 
@@ -45,7 +45,22 @@ TEST(Errands, WhatOneThrowsGoesToItsSender)
   Errands errands;
   const Errands::Doer doer(errands);
   auto answer = sent(errands, []() -> Answer { throw std::runtime_error("broken"); });
-  EXPECT_THROW(done(doer, answer), std::runtime_error);
+  EXPECT_THROW(done(errands, answer), std::runtime_error);
+}
+
+TEST(Errands, AreSeenToWaitUntilTheyAreDone)
+{
+  Errands errands;
+  const Errands::Doer doer(errands);
+  EXPECT_FALSE(errands.any_waiting());
+  auto answer = sent(errands, [] { return Answer{}; });
+  while (!errands.any_waiting())
+  {
+    std::this_thread::yield();
+  }
+  errands.do_all();
+  EXPECT_FALSE(errands.any_waiting());
+  EXPECT_TRUE(answer.get().success);
 }
 
 TEST(Errands, AreRefusedWhenTheDoerGoes)

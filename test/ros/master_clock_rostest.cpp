@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothStats.h"
+#include "cloth_sim/Pin.h"
 
+#include "frame_message.h"
 #include "listener.h"
 #include "node_process.h"
 #include "time_services.h"
@@ -87,6 +90,28 @@ TEST_F(MasterClock, AlsoAsFastAsItCan)
 {
   NodeProcess node(master({ "_real_time_factor:=0" }));
   expect_clock_of_period(1.0 / rate);
+}
+
+TEST_F(MasterClock, APinFollowsItsFrame)
+{
+  NodeProcess node(master());
+  ASSERT_TRUE(wait_for_node());
+  ros::NodeHandle handle;
+  ros::Publisher pins = handle.advertise<cloth_sim::Pin>("/cloth_node/pin", 10, true);
+  cloth_sim::Pin pin;
+  pin.action = cloth_sim::Pin::PIN;
+  pin.name = "left";
+  pin.attach_frame = "gripper";
+  pins.publish(pin);
+  tf2_ros::TransformBroadcaster broadcaster;
+  for (const double y : { 0.1, 0.25, 0.2 })
+  {
+    EXPECT_TRUE(state_.wait_for_one([&](const ClothState& state) {
+      const Eigen::Isometry3d place(Eigen::Translation3d(-0.5, y, 1.5));
+      broadcaster.sendTransform(frame_message("gripper", place, state.header.stamp));
+      return std::abs(state.positions[1] - y) < 1e-6;
+    }));
+  }
 }
 
 TEST_F(MasterClock, StandsWhilePausedAndIsStepped)

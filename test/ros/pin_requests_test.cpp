@@ -47,7 +47,7 @@ protected:
 
   void apply()
   {
-    apply_pin(request_, frames_, tick, simulation_);
+    apply_pin(request_, frames_, tick, simulation_, attachments_);
   }
 
   /// The nodes of the pin `name`; none where there is no such pin.
@@ -60,6 +60,7 @@ protected:
   tf2::BufferCore transforms_;
   Frames frames_{ "world", transforms_ };
   Simulation simulation_ = build_simulation(make_plan(free_sheet()));
+  PinAttachments attachments_{ {} };
   cloth_sim::Pin request_;
 };
 
@@ -158,7 +159,7 @@ TEST_F(PinRequests, NonsenseIsRefusedAndChangesNothing)
   refused([](cloth_sim::Pin& pin) { pin.col = 4294967295u; });
   refused([](cloth_sim::Pin& pin) { pin.name = "1a"; });
   refused([](cloth_sim::Pin& pin) { pin.name = "a/b"; });
-  refused([](cloth_sim::Pin& pin) { pin.attach_frame = "turned"; });
+  refused([](cloth_sim::Pin& pin) { pin.attach_frame = "/turned"; });
   refused([](cloth_sim::Pin& pin) { pin.action = 3; });
   refused([](cloth_sim::Pin& pin) { pin.select = 3; });
   refused([](cloth_sim::Pin& pin) { pin.action = cloth_sim::Pin::RELEASE; });
@@ -167,6 +168,7 @@ TEST_F(PinRequests, NonsenseIsRefusedAndChangesNothing)
   refused([](cloth_sim::Pin& pin) { pin.point.header.frame_id = "nowhere"; });
   refused([](cloth_sim::Pin& pin) { pin.point.header.frame_id = "/turned"; });
   refused([](cloth_sim::Pin& pin) { pin.point.point.z = infinity; });
+  refused([](cloth_sim::Pin& pin) { pin.point.point.z = -1e300; });
   request_.select = cloth_sim::Pin::RADIUS;
   request_.radius = 100.0;
   refused([](cloth_sim::Pin& pin) { pin.radius = infinity; });
@@ -183,8 +185,11 @@ TEST_F(PinRequests, WindIsTurnedButNotShifted)
   EXPECT_TRUE(wind_of(wind, frames_).isApprox(Eigen::Vector3d(0, 3, 0)));
   wind.header.frame_id = "";
   EXPECT_EQ(wind_of(wind, frames_), Eigen::Vector3d(3, 0, 0));
-  wind.vector.y = infinity;
-  EXPECT_THROW(wind_of(wind, frames_), RefusedRequest);
+  for (const double bad : { infinity, 1e300, 1001.0 })
+  {
+    wind.vector.y = bad;
+    EXPECT_THROW(wind_of(wind, frames_), RefusedRequest) << bad;
+  }
 }
 
 TEST_F(PinRequests, WaitInOrderAndTheLatestWindCounts)
@@ -199,8 +204,9 @@ TEST_F(PinRequests, WaitInOrderAndTheLatestWindCounts)
     request(simulation_);
   }
   EXPECT_EQ(held("a"), std::vector<int>{ 4 });
-  EXPECT_EQ(simulation_.dynamics().air().properties().wind, Eigen::Vector3d(2, 0, 0));
   EXPECT_TRUE(queue.take_all().empty());
+  EXPECT_EQ(queue.take_wind(), Eigen::Vector3d(2, 0, 0));
+  EXPECT_FALSE(queue.take_wind().has_value());
 }
 
 TEST_F(PinRequests, TooManyAreRefused)

@@ -45,5 +45,12 @@ TEST_F(RefusalLogTest, AFloodOfCausesIsCutShort)
   EXPECT_NE(warnings_.back().find("not shown"), std::string::npos);
 }
 
+TEST_F(RefusalLogTest, OfAHugeCauseTheBeginningIsShown)
+{
+  log_.report(std::string(1000000, 'x'), start_);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_TRUE(warnings_[0] == std::string(RefusalLog::longest_cause, 'x') + "...");
+}
+
 }  // namespace
 }  // namespace cloth

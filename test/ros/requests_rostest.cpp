@@ -305,8 +305,8 @@ TEST_F(Requests, PinsThatMakeNoSenseAreRefused)
   message.action = 8;
   expect_refused(message, "action is 8");
   message = pin("a", 1, 1);
-  message.attach_frame = "gripper";
-  expect_refused(message, "attach_frame is 'gripper'");
+  message.attach_frame = "/gripper";
+  expect_refused(message, "attach_frame is '/gripper'");
 }
 
 }  // namespace

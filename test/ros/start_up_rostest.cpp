@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{ { "_cloth/rows:=many" }, { "cloth.rows", "many", "an integer from 1" } },
                     BadParameter{ { "_cloth/mass:=-0.1" }, { "cloth.mass", "-0.1", "> 0.0" } },
                     BadParameter{ { "_gravity:=[0,0,.nan]" }, { "gravity", ".nan", "3 finite numbers" } },
-                    BadParameter{ { "_rate:=0" }, { "rate", "0", "> 0.0" } },
+                    BadParameter{ { "_rate:=0" }, { "rate", "0", ">= 0.001" } },
                     BadParameter{ { "_clock_mode:=master" }, { "clock_mode", "master", "/use_sim_time", "follow" } },
                     BadParameter{ { "_cloth/rows:=0", "_solver/metod:=rk4" }, { "cloth.rows", "solver.metod" } }));
 

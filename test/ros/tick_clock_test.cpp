@@ -145,5 +145,57 @@ TEST(TickClock, SaysHowLongToWait)
   EXPECT_EQ(clock.until_next(after(0.2)).toSec(), 0.0);
 }
 
+TEST(TickClock, AnotherPaceGoesOnFromTheLastTick)
+{
+  TickClock clock(10.0, 1.0);
+  clock.take(start);
+  ASSERT_TRUE(clock.take(after(0.1)));
+  EXPECT_FALSE(clock.take(after(0.11)));
+  clock.set_pace(50.0, 2.0);
+  EXPECT_EQ(clock.until_next(after(0.11)), ros::Duration(0.01));
+  const auto tick = clock.take(after(0.12));
+  ASSERT_TRUE(tick);
+  EXPECT_EQ(tick->stamp, after(0.12));
+  EXPECT_DOUBLE_EQ(tick->simulated_time, 0.14);
+  EXPECT_FALSE(clock.take(after(0.139)));
+  EXPECT_EQ(clock.overruns(), 0u);
+}
+
+TEST(TickClock, AfterALongPeriodAShortOneIsNoBacklog)
+{
+  TickClock clock(0.001, 1.0);
+  clock.take(start);
+  EXPECT_FALSE(clock.take(after(900.0)));
+  clock.set_pace(100.0, 1.0);
+  EXPECT_TRUE(clock.take(after(900.0)));
+  EXPECT_FALSE(clock.take(after(900.005)));
+  EXPECT_EQ(clock.overruns(), 0u);
+}
+
+TEST(TickClock, ABacklogOutlastsAnotherPace)
+{
+  TickClock clock(10.0, 1.0);
+  clock.take(start);
+  ASSERT_TRUE(clock.take(after(0.3)));
+  clock.set_pace(20.0, 1.0);
+  for (const double due : { 0.15, 0.2, 0.25, 0.3 })
+  {
+    const auto tick = clock.take(after(0.3));
+    ASSERT_TRUE(tick) << due;
+    EXPECT_EQ(tick->stamp, after(due));
+  }
+  EXPECT_FALSE(clock.take(after(0.3)));
+}
+
+TEST(TickClock, AnotherPaceBeforeTheFirstTimeAndFromAsFastAsItCan)
+{
+  TickClock clock(10.0, 0.0);
+  clock.set_pace(20.0, 0.0);
+  EXPECT_DOUBLE_EQ(clock.take(start)->simulated_time, 0.05);
+  clock.set_pace(20.0, 1.0);
+  EXPECT_FALSE(clock.take(after(0.01)));
+  EXPECT_DOUBLE_EQ(clock.take(after(0.05))->simulated_time, 0.1);
+}
+
 }  // namespace
 }  // namespace cloth

@@ -22,6 +22,7 @@ TEST(TickStatistics, SumsUpAPeriod)
   EXPECT_DOUBLE_EQ(report.tick_ms_mean, 4.0);
   EXPECT_DOUBLE_EQ(report.tick_ms_max, 6.0);
   EXPECT_DOUBLE_EQ(report.real_time_factor, 1.5);
+  EXPECT_DOUBLE_EQ(report.rate, 1.0);
 }
 
 TEST(TickStatistics, BeginsAnewAfterwards)

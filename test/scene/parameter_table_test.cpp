@@ -214,22 +214,26 @@ std::vector<Edge> edges<SceneParams>()
     { "cloth.rows", { "0", "-1", "4097" }, { "1", "+2" } },
     { "cloth.cols", { "0", "-1", "4097" }, { "1", "2" } },
     { "cloth.initial_stretch", { "[0, 1]", "[1, 0]", "[1, -1]" }, { "[1.0e-6, 2]" } },
+    { "air.gusts.seed", { "-1", "2147483648", "0.5" }, { "0", "2147483647" } },
     { "strain_limit.sweeps", { "0", "-1", "100001" }, { "1", "100000" } },
     { "solver.iterations", { "0", "-1", "10001" }, { "1", "10000" } },
     { "solver.compliance", { "-0.1", "1.1" }, { "0", "0.5", "1" } },
     { "solver.threads", { "-1", "65", "1.5" }, { "0", "1", "64" } },
     { "solver.time_step", { "-1", "1.0e-300", "9.0e-10" }, { "0", "1.0e-9", "1" } },
-    { "rate", { "0", "-1", "1000.001" }, { "1000", "0.1" } },
+    { "solver.tolerance", { "0", "-1", "9.0e-13" }, { "1.0e-12", "1" } },
+    { "rate", { "0", "-1", "9.0e-4", "1000.001" }, { "1000", "0.001" } },
     { "display.fabric_colour", { "[0, 0, 1.01]", "[-0.01, 0, 0]" }, { "[0, 1, 0.5]" } },
   };
-  for (const char* const positive : { "cloth.width", "cloth.height", "cloth.mass", "solver.tolerance" })
+  for (const char* const positive :
+       { "cloth.width", "cloth.height", "cloth.mass", "tf_pins.top_speed", "air.gusts.time_scale" })
   {
     list.push_back({ positive, zero_or_below, { "1.0e-300", "1" } });
   }
   for (const char* const not_negative :
        { "springs.structural.stiffness", "springs.structural.damping", "springs.shear.stiffness",
          "springs.shear.damping", "springs.flex.stiffness", "springs.flex.damping", "strain_limit.max_strain",
-         "air.viscous_damping", "air.wind_coupling", "real_time_factor" })
+         "air.viscous_damping", "air.wind_coupling", "real_time_factor", "tf_pins.max_age", "wind_timeout",
+         "air.gusts.strength" })
   {
     list.push_back({ not_negative, below_zero, { "0", "1.0e-300", "1.0e6" } });
   }
@@ -326,6 +330,38 @@ TYPED_TEST(ParameterTable, EveryKeyIsThereOnceAndIsExplained)
     EXPECT_TRUE(keys.insert(parameter.key).second) << parameter.key;
     EXPECT_FALSE(parameter.type.empty() || parameter.allowed.empty() || parameter.meaning.empty()) << parameter.key;
   }
+}
+
+TEST(ParameterTableLive, AreTheKeysOfTheInterface)
+{
+  const std::set<std::string> interface_keys = { "gravity",
+                                                 "springs.structural.stiffness",
+                                                 "springs.structural.damping",
+                                                 "springs.shear.stiffness",
+                                                 "springs.shear.damping",
+                                                 "springs.flex.stiffness",
+                                                 "springs.flex.damping",
+                                                 "strain_limit.max_strain",
+                                                 "strain_limit.sweeps",
+                                                 "air.viscous_damping",
+                                                 "air.wind_coupling",
+                                                 "air.wind",
+                                                 "solver.method",
+                                                 "solver.time_step",
+                                                 "solver.tolerance",
+                                                 "solver.iterations",
+                                                 "solver.compliance",
+                                                 "rate",
+                                                 "real_time_factor" };
+  std::set<std::string> keys;
+  for (const Parameter<SceneParams>& parameter : parameter_table())
+  {
+    if (parameter.live)
+    {
+      keys.insert(parameter.key);
+    }
+  }
+  EXPECT_EQ(keys, interface_keys);
 }
 
 TEST(ParameterTableWords, AreThoseOfTheInterface)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/yaml_text.h"
 #include "scene/scene_text.h"
 
@@ -42,7 +43,8 @@ TEST(Plan, KeepsWhatActsAndCountsIt)
   EXPECT_EQ(line_of("flex springs", yaml), "flex springs: kept, 22 of 10.0 N/m, undamped");
   EXPECT_EQ(line_of("gravity", yaml), "gravity: kept, 9.81 m/s2");
   EXPECT_EQ(line_of("viscous damping", yaml), "viscous damping: kept, 0.3 N s/m per m2");
-  EXPECT_TRUE(has(line_of("wind", yaml), { "wind: kept, 1.0 N s/m per m2, air at 0.0 m/s" }));
+  EXPECT_TRUE(has(line_of("wind", yaml), { "wind: kept, 1.0 N s/m per m2, air at 0.0 m/s; still" }));
+  EXPECT_TRUE(has(line_of("wind", "air: {gusts: {strength: 2}}"), { "air at 0.0 m/s with gusts of 2.0 m/s; still" }));
   EXPECT_EQ(line_of("strain limit", yaml), "strain limit: kept, 0.1 in at most 30 sweeps a step");
   EXPECT_TRUE(has(line_of("pins", yaml), { "pins: kept, 2 nodes in 2 pins, 0 " }));
   EXPECT_TRUE(has(line_of("pins", "pins: [{name: a, at: border, motion: {amplitude: [0, 0, 1], frequency: 1}}]"),
@@ -81,7 +83,7 @@ TEST(Plan, HasALineForEveryPartOnceAndInOrder)
 {
   const std::vector<std::string> parts{
     "structural springs", "shear springs", "flex springs", "gravity", "viscous damping", "wind",
-    "strain limit",       "pins",          "start",        "method",  "time step"
+    "strain limit",       "pins",          "start",        "method",  "threads",         "time step"
   };
   const std::vector<std::string> lines = lines_of(four_by_five);
   ASSERT_EQ(lines.size(), parts.size());
@@ -167,6 +169,54 @@ TEST(TimeStepWarning, HasBothNumbersBeyondTheLimitAndNothingWithinIt)
       "solver.time_step is " + format_number(given) + " s, beyond the stability limit of velocity_verlet, ";
   ASSERT_EQ(warning.substr(0, start.size()), start);
   EXPECT_NEAR(std::stod(warning.substr(start.size())), limit, 1e-4 * limit);
+}
+
+TEST(LivePlan, KeepsTheStartAndTakesTheRest)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6, initial_stretch: [0.9, 1], start: catenary}}");
+  const Plan before = make_plan(scene);
+  scene.sheet.structural.stiffness = 300.0;
+  scene.solver.method = "rk4";
+  const Plan after = live_plan(before, scene);
+  EXPECT_EQ(after.start.positions, before.start.positions);
+  const Simulation simulation = carry_on(after, build_simulation(before));
+  const std::vector<std::string> lines = describe(after, simulation);
+  for (const char* const line :
+       { "structural springs: kept, 60 of 300.0 N/m and 0.01 N s/m", "start: kept, catenary, between 2 pinned nodes",
+         "method: kept, rk4, as the scene says" })
+  {
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& text) { return has(text, { line }); }))
+        << line;
+  }
+}
+
+TEST(LivePlan, RefusesWhatDoesNotFitTogether)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}}");
+  const Plan before = make_plan(scene);
+  scene.solver.compliance = 0.5;
+  EXPECT_THROW(live_plan(before, scene), SceneError);
+}
+
+TEST(LivePlan, WhereForcesOverflowNothingCarriesOn)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}, solver: {method: tr_bdf2}}");
+  const Plan before = make_plan(scene);
+  const Simulation running = build_simulation(before);
+  scene.gravity.z() = 1e300;
+  EXPECT_THROW(carry_on(live_plan(before, scene), running), SceneError);
+}
+
+TEST(LivePlan, WhereNoStepIsStableNothingCarriesOn)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}}");
+  const Plan before = make_plan(scene);
+  const Simulation running = build_simulation(before);
+  scene.solver.method = "explicit_euler";
+  scene.air.viscous_damping = 0.0;
+  EXPECT_THROW(carry_on(live_plan(before, scene), running), SceneError);
+  scene.solver.time_step = 1e-3;
+  EXPECT_THROW(carry_on(live_plan(before, scene), running), SceneError) << "a live change does not go past the limit";
 }
 
 }  // namespace

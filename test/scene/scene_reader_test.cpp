@@ -39,6 +39,7 @@ air:
   viscous_damping: 0.3
   wind_coupling: 1.0
   wind: [0, 0, 0]
+  gusts: {strength: 0, time_scale: 1, seed: 1}
 pins:
   - {name: left,  at: top_left}
   - {name: right, at: top_right}
@@ -53,6 +54,8 @@ rate: 30
 real_time_factor: 1.0
 clock_mode: follow
 start_paused: false
+tf_pins: {top_speed: 5.0, max_age: 1.0}
+wind_timeout: 0
 )";
 
 int count_leaves(const YAML::Node& node)
@@ -121,7 +124,8 @@ springs:
   shear: {stiffness: 2.3, damping: 2.4}
   flex: {stiffness: 2.5, damping: 2.6}
 strain_limit: {max_strain: 3.1, sweeps: 7}
-air: {viscous_damping: 4.1, wind_coupling: 4.2, wind: [10, 11, 12]}
+air: {viscous_damping: 4.1, wind_coupling: 4.2, wind: [10, 11, 12],
+      gusts: {strength: 4.3, time_scale: 4.4, seed: 8}}
 pins:
   - {name: one, nodes: [[1, -2], [0, 0]], motion: {amplitude: [13, 14, 15], frequency: 5.1, phase: 5.2}}
 solver: {method: xpbd, time_step: 6.1, tolerance: 6.2, iterations: 7, compliance: 0.3, threads: 8}
@@ -129,6 +133,8 @@ rate: 7.1
 real_time_factor: 7.2
 clock_mode: follow
 start_paused: false
+tf_pins: {top_speed: 7.3, max_age: 7.4}
+wind_timeout: 7.5
 display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
 )");
   using Eigen::Vector3d;
@@ -157,6 +163,9 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.air.viscous_damping, 4.1);
   EXPECT_EQ(scene.air.wind_coupling, 4.2);
   EXPECT_EQ(scene.air.wind, Vector3d(10, 11, 12));
+  EXPECT_EQ(scene.air.gusts.strength, 4.3);
+  EXPECT_EQ(scene.air.gusts.time_scale, 4.4);
+  EXPECT_EQ(scene.air.gusts.seed, 8);
   EXPECT_EQ(scene.solver.method, "xpbd");
   EXPECT_EQ(scene.solver.time_step, 6.1);
   EXPECT_EQ(scene.solver.tolerance, 6.2);
@@ -165,6 +174,9 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.solver.threads, 8);
   EXPECT_EQ(scene.node.rate, 7.1);
   EXPECT_EQ(scene.node.real_time_factor, 7.2);
+  EXPECT_EQ(scene.node.tf_pins.top_speed, 7.3);
+  EXPECT_EQ(scene.node.tf_pins.max_age, 7.4);
+  EXPECT_EQ(scene.node.wind_timeout, 7.5);
   EXPECT_EQ(scene.node.colouring, "strain");
   EXPECT_EQ(scene.node.fabric_colour, Vector3d(0.7, 0.8, 0.9));
   ASSERT_EQ(scene.pins.size(), 1u);

@@ -160,7 +160,7 @@ TEST_P(Conservation, EnergyOfAnUndampedSheetIsKeptLostOrGainedAsTheTableSays)
 TEST_P(Conservation, DampingTakesEnergyOutAndNeverPutsItIn)
 {
   SimulationSetup setup = shaken_sheet();
-  setup.air = { 0.3, 1.0, Eigen::Vector3d::Zero() };
+  setup.air = { 0.3, 1.0, Eigen::Vector3d::Zero(), {} };
   setup.time_step = 0.1 * step_for(setup);
   Simulation simulation(setup);
   const double end = std::min(2.0, 2e5 * setup.time_step);

@@ -119,7 +119,7 @@ TEST(DivergenceGuard, TakesAFallAGustAndAPullForWhatTheyAre)
 {
   SimulationSetup setup = springs_alone(small_sheet(), "velocity_verlet", 0.0);
   setup.gravity = { 0.0, 0.0, -9.81 };
-  setup.air = { 0.0, 5.0, Eigen::Vector3d::Zero() };
+  setup.air = { 0.0, 5.0, Eigen::Vector3d::Zero(), {} };
   setup.pins.push_back(still_pin("hand", { 0 }, setup.start.positions));
   Simulation simulation(setup);
   EXPECT_TRUE(simulation.advance_to(0.5));

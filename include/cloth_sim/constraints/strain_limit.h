@@ -60,8 +60,10 @@ public:
     bool reached = true;  ///< no spring that can be shortened is above the limit
   };
 
-  /// Corrects the positions and velocities of `state` after a step of length h (s).
-  Report apply(const ClothModel& model, const Pins& pins, double h, ClothState& state);
+  /// Corrects the positions and velocities of `state` after a step of length h (s). Where `impulses` is given, what the
+  /// springs gave to held nodes is added to their rows, N s: minus what free nodes gained in momentum from them. Other
+  /// rows are of no meaning.
+  Report apply(const ClothModel& model, const Pins& pins, double h, ClothState& state, Vectors* impulses = nullptr);
 
 private:
   StrainLimitProperties properties_;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "cloth_sim/forces/gusts.h"
 #include "cloth_sim/model/cloth_model.h"
 #include "cloth_sim/model/node_range.h"
 
@@ -12,15 +13,17 @@ struct AirProperties
 {
   double viscous_damping = 0.3;                    ///< N s/m per m2 of sheet
   double wind_coupling = 1.0;                      ///< N s/m per m2 of sheet
-  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  ///< u, the air's velocity, m/s
+  Eigen::Vector3d wind = Eigen::Vector3d::Zero();  ///< the air's velocity without gusts, m/s
+  GustProperties gusts;
 };
 
 /// The air's force on each node (Provot 1995, section 3.2):
 ///
 ///   -C_dis v_i  +  C_vi (n_i . (u - v_i)) n_i
 ///
-/// C_dis and C_vi are `viscous_damping` and `wind_coupling` times the node's area, n_i its normal (`node_normals`).
-/// Without coupling no normal is ever computed. A chain has no normals and feels viscous damping only.
+/// C_dis and C_vi are `viscous_damping` and `wind_coupling` times the node's area, n_i its normal (`node_normals`), u
+/// the wind at the time, gusts included. Without coupling no normal is ever computed. A chain has no normals and feels
+/// viscous damping only.
 class Air
 {
 public:
@@ -35,22 +38,35 @@ public:
     properties_.wind = wind;
   }
 
+  /// u at `time` (s), m/s.
+  Eigen::Vector3d wind_at(double time) const
+  {
+    return properties_.wind + gusts_.at(time);
+  }
+  /// The wind is never faster, m/s.
+  double top_speed() const
+  {
+    return properties_.wind.norm() + gusts_.top_speed();
+  }
+
   /// Adds the force above, in N, to every node.
-  void add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& forces) const;
-  /// The same for the nodes of some whole rows. There must be room for the model.
-  void add_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, NodeRange nodes,
+  void add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                   Vectors& forces) const;
+  /// The same for the nodes of some whole rows. There must be room for the model.
+  void add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
+                  NodeRange nodes, Vectors& forces) const;
 
   /// Solves (m + h C_dis) v + h C_vi (n . (v - u)) n = m v_given for every node, in closed form: the air of an
-  /// implicit step of length h, positions held. Velocities in m/s, h in s.
-  void damp_implicitly(const ClothModel& model, const Vectors& positions, double h, Vectors& velocities) const;
+  /// implicit step of length h that ends at `time` (s), positions held. Velocities in m/s, h in s.
+  void damp_implicitly(const ClothModel& model, double time, const Vectors& positions, double h,
+                       Vectors& velocities) const;
 
   /// Turns the other forces on the nodes of some whole rows, in N, into their accelerations over a time h (s), with the
-  /// air at its end, positions held, and adds h a to the velocities. There must be room for the model. In closed form,
-  /// v being the velocity at the beginning:
+  /// air at its end, at `time` (s), positions held, and adds h a to the velocities. There must be room for the model.
+  /// In closed form, v being the velocity at the beginning:
   ///
   ///   (m + h C_dis) a + h C_vi (n . a) n = f - C_dis v + C_vi (n . (u - v)) n
-  void accelerate_implicitly(const ClothModel& model, const Vectors& positions, double h, NodeRange nodes,
+  void accelerate_implicitly(const ClothModel& model, double time, const Vectors& positions, double h, NodeRange nodes,
                              Vectors& forces, Vectors& velocities) const;
 
   /// Makes room for what is worked out for each node.
@@ -71,12 +87,13 @@ public:
 
 private:
   /// The normals, and n . (u - v), of `nodes`.
-  void find_normal_speeds(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+  void find_normal_speeds(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                           NodeRange nodes) const;
   /// Adds `normal_speeds_` along the normals of `nodes`.
   void add_along_normals(NodeRange nodes, Vectors& vectors) const;
 
   AirProperties properties_;
+  Gusts gusts_;
   mutable Vectors normals_;
   mutable Eigen::ArrayXd normal_speeds_;
 };

@@ -69,11 +69,18 @@ public:
   /// The force on every node, N. `forces` is overwritten.
   void forces(double time, const Vectors& positions, const Vectors& velocities, Vectors& forces) const;
 
+  /// M^-1 f of every node, in m/s2: of pinned ones what they would do if they were let go. May be done in place.
+  void unheld_accelerations_of(const Vectors& forces, Vectors& accelerations) const;
+
   /// M^-1 f, in m/s2, zero for pinned nodes. May be done in place.
   void accelerations_of(const Vectors& forces, Vectors& accelerations) const;
 
   /// The acceleration of every node, air included, zero for pinned nodes: the right-hand side as a whole.
   void accelerations(double time, const Vectors& positions, const Vectors& velocities, Vectors& accelerations) const;
+
+  /// The same with what pinned nodes would do if they were let go.
+  void unheld_accelerations(double time, const Vectors& positions, const Vectors& velocities,
+                            Vectors& accelerations) const;
 
   // The same by parts, for work that is shared out to threads or to be done while its data are in the nearest cache.
 

@@ -41,6 +41,35 @@ public:
   virtual void restart()
   {
   }
+
+  /// From now on every step adds to the rows of held nodes of `impulses` what the forces on them come to over the step,
+  /// N s: with the quadrature by which the step moves the free nodes, so that what a spring gives to its two ends sums
+  /// to zero. Other rows are of no meaning. Null: no longer. The steps are the same either way.
+  void record_impulses(Vectors* impulses)
+  {
+    impulses_ = impulses;
+  }
+
+protected:
+  bool records() const
+  {
+    return impulses_ != nullptr;
+  }
+  /// For steps that record: `forces` (N) for so long (s).
+  void add_impulses(double duration, const Vectors& forces)
+  {
+    if (records())
+    {
+      *impulses_ += duration * forces;
+    }
+  }
+  Vectors& impulses()
+  {
+    return *impulses_;
+  }
+
+private:
+  Vectors* impulses_ = nullptr;
 };
 
 /// One mode of a linearised network, x'' = -frequency^2 x - (air_damping + spring_damping) x'.

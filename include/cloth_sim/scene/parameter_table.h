@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ struct Parameter
   /// The value as it is written in YAML.
   std::function<std::string(const Target& target)> get;
   bool node_only = false;  ///< used by the ROS node alone
+  bool live = false;       ///< may change while the node runs
+  // Of a number, an integer, and each number of a list: what is allowed besides, maybe, 0.
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool or_zero = false;
 };
 
 /// Every key of a scene but the list `pins`, in the order of the documentation. Defaults: a default SceneParams.

@@ -34,6 +34,14 @@ Plan make_plan(const SceneParams& scene);
 /// The simulation of a plan, at time 0.
 Simulation build_simulation(const Plan& plan);
 
+/// The plan of a scene that differs from that of `running` in live keys alone; the start stays that of `running`.
+/// Throws SceneError where its parts do not fit together.
+Plan live_plan(const Plan& running, const SceneParams& scene);
+
+/// The simulation of `plan`, a live plan, that carries on where `running` is; its wind is the plan's. Throws SceneError
+/// where no step of the method is stable, and where forces are too large for any.
+Simulation carry_on(const Plan& plan, const Simulation& running);
+
 /// The plan's lines and one for the step as `simulation` takes it now, each as text: "flex springs: left out,
 /// stiffness is 0".
 std::vector<std::string> describe(const Plan& plan, const Simulation& simulation);

@@ -44,6 +44,13 @@ struct SolverParams
   int threads = 0;  ///< 0: chosen
 };
 
+/// How pins follow the tf frames that carry them.
+struct TfPinParams
+{
+  double top_speed = 5.0;  ///< m/s of simulated time
+  double max_age = 1.0;    ///< s of ROS time; 0: any
+};
+
 /// What only the ROS node uses.
 struct NodeParams
 {
@@ -51,6 +58,8 @@ struct NodeParams
   double real_time_factor = 1.0;  ///< 0: as fast as it can
   std::string clock_mode = "follow";
   bool start_paused = false;
+  TfPinParams tf_pins;
+  double wind_timeout = 0.0;                          ///< s of ROS time; 0: none
   std::string colouring = "fabric";                   ///< fabric or strain
   Eigen::Vector3d fabric_colour{ 0.75, 0.16, 0.18 };  ///< red, green, blue in [0, 1]
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,13 @@ struct SimulationSetup
   ClothState start;
 };
 
+/// A force and its torque.
+struct Wrench
+{
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
+};
+
 /// One cloth on its way through time. Owned by one thread; requests are taken between two calls of `advance_to`.
 class Simulation
 {
@@ -62,10 +70,16 @@ public:
   /// Throws std::invalid_argument where the setup's sizes do not fit together or no method is named.
   explicit Simulation(SimulationSetup setup);
 
+  /// The same cloth as it is now with the properties of `setup`, whose pins and start count for nothing: state, pins,
+  /// counters and a divergence carry on; what is stretched beyond a lower strain limit is shortened, and gains no
+  /// speed. Its step never exceeds the stability limit, also where one is given. Throws what the constructor throws.
+  Simulation gone_over_to(SimulationSetup setup) const;
+
   /// Advances to `time` (s) in equal steps, as few as the time step allows; where no step is given and the stability
   /// limit falls on the way, the rest of the way is divided anew. An adaptive method divides the way itself. False: the
-  /// simulation has diverged, and holds the last good state.
-  bool advance_to(double time);
+  /// simulation has diverged, and holds the last good state. `stops`, where given, is asked every now and then; once it
+  /// says so the cloth stays where it has got to.
+  bool advance_to(double time, const std::function<bool()>& stops = {});
 
   const ClothModel& model() const
   {
@@ -108,6 +122,20 @@ public:
   /// The largest stable step of the cloth as it is at this moment, s; infinite where there is none.
   double stability_limit() const;
 
+  /// From the next step on adds up what the cloth does to those who hold its nodes, beginning at zero, or adds up no
+  /// longer. The motion is the same either way. To be called anew after a request about pins.
+  void measure_reactions(bool measure);
+  /// What the cloth did to the holder of `pin`, on average since `measure_reactions(true)`; the torque about the middle
+  /// of the pin's nodes, and with arms, as they are now. With what a method makes of the forces on held nodes and of
+  /// those on free ones, m a of the held nodes included, this keeps the balance
+  ///
+  ///   change of the momentum of all nodes = impulse of gravity and air on all nodes - sum of all pins' force times
+  ///   time
+  ///
+  /// to rounding, or to the accuracy with which a method solves its equations; the strain limit's part too. Zero where
+  /// no time has passed.
+  Wrench reaction_on(const Pin& pin) const;
+
   // Requests. The state carries on.
 
   void set_wind(const Eigen::Vector3d& wind);
@@ -118,22 +146,29 @@ public:
   void release_all();
   /// Carries the middle of the named pin's nodes to `target` (m) within `duration` (s). False: no pin has this name.
   bool carry(const std::string& name, const Eigen::Vector3d& target, double duration);
+  /// Carries the named pin, until the time `end` (s), to where `placement` takes its nodes from where they were held;
+  /// `pivot` (m, on the body as it was held) goes in a straight line. False: no pin has this name.
+  bool carry(const std::string& name, const Eigen::Isometry3d& placement, const Eigen::Vector3d& pivot, double end);
 
 private:
   static constexpr int steps_between_checks = 64;
 
   double longest_step() const;
+  double limited_step() const;
   void step(double h);
   void take_equal_steps(double time, double longest);
   void take_adaptive_steps(double time, double longest);
   void keep_or_restore();
   void changed_from_outside();
+  void shorten_at_no_speed();
+  void pins_sent_elsewhere();
 
   Dynamics dynamics_;
   StrainLimit strain_limit_;
   const MethodRow* method_row_;
   std::unique_ptr<Method> method_;
   double given_time_step_;
+  bool keeps_within_limit_ = false;  ///< a given step is cut to what is stable
   double last_step_ = 0.0;
   ClothState state_;
   ClothState last_good_;
@@ -141,6 +176,11 @@ private:
   std::optional<Divergence> divergence_;
   Counters counters_;
   mutable StabilityWatch stability_watch_;
+
+  bool measures_reactions_ = false;
+  double measured_since_ = 0.0;
+  Vectors velocities_before_;
+  Vectors impulses_;  ///< what the cloth gave to held nodes since then, N s, without m a
 };
 
 }  // namespace cloth
