@@ -36,6 +36,7 @@ cloth_add_test(forces
 )
 cloth_add_test(constraints
   test/constraints/pins_test.cpp
+  test/constraints/spring_tensions_test.cpp
   test/constraints/strain_limit_test.cpp
 )
 cloth_add_test(methods

@@ -233,7 +233,8 @@ StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_m
   {
     add_tensions_to(*shifts);
   }
-  margin_ = std::clamp(margin_ * (report.sweeps > few ? margin_growth : margin_decay), least_margin, most_margin);
+  margin_ = std::clamp(margin_ * (report.sweeps > few ? margin_growth : margin_decay), StrainLimit::least_margin,
+                       StrainLimit::most_margin);
   return report;
 }
 

@@ -35,11 +35,8 @@ public:
                               Vectors* shifts) override;
 
 private:
-  /// Springs are shortened to somewhat less than the limit, by this part of max_strain, so that fewer passes find them
-  /// within StrainLimit::tolerance above it: the margin grows while steps need more passes than `few` and dies away
-  /// while they do not, so that at rest springs are as long as the limit says. Within a step it stays the same.
-  static constexpr double least_margin = 0.005;
-  static constexpr double most_margin = 0.15;
+  /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do
+  /// not. Within a step it stays the same.
   static constexpr double margin_growth = 1.2;
   static constexpr double margin_decay = 0.98;
   static constexpr int few = 4;
@@ -82,7 +79,7 @@ private:
 
   int rows_;
   double max_strain_;
-  double margin_ = least_margin;
+  double margin_ = StrainLimit::least_margin;
   std::vector<Batch> batches_;
   std::vector<long> moved_at_;  ///< for each block of nodes
   long now_ = 0;                ///< counts passes

@@ -141,6 +141,10 @@ std::vector<Parameter<SceneParams>> make_table()
                        CLOTH_MEMBER(strain_limit.max_strain))),
     live(Scene::integer("strain_limit.sweeps", 1, 100000, "most passes over the springs after a step",
                         CLOTH_MEMBER(strain_limit.sweeps))),
+    Scene::choice("strain_limit.solver", { "tensions", "sweeps" },
+                  "how springs are shortened: by tensions that carry over from step to step, in few passes, or by "
+                  "Provot's plain sweeps",
+                  CLOTH_MEMBER(strain_limit.solver)),
 
     live(Scene::number("air.viscous_damping", "N s/m per m2", not_negative, "drag of the air at rest, in any direction",
                        CLOTH_MEMBER(air.viscous_damping))),

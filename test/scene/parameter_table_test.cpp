@@ -368,6 +368,7 @@ TEST(ParameterTableWords, AreThoseOfTheInterface)
 {
   const std::map<std::string, std::set<std::string>> interface_words = {
     { "cloth.mass_lumping", { "area", "uniform" } },
+    { "strain_limit.solver", { "tensions", "sweeps" } },
     { "cloth.start", { "flat", "catenary", "settled" } },
     { "solver.method",
       { "auto", "explicit_euler", "symplectic_euler", "velocity_verlet", "midpoint", "rk4", "dopri5", "implicit_euler",

@@ -26,16 +26,21 @@ struct StrainLimitProperties
 
 class Shortening;
 
-/// Provot's cure for super-elasticity (1995, section 4): after the positions have moved, every structural and shear
-/// spring whose strain |l|/l0 - 1 is above max_strain is shortened along itself to exactly max_strain. Its ends share
-/// the shift by inverse mass; a pinned end stays. Passes over all springs repeat until none is above, or `sweeps` are
-/// done: batches in the model's order, springs in memory order, every second pass backwards. Velocities follow:
-/// v <- v + (x_corrected - x)/h; without this the method is unstable.
+/// Provot's cure for super-elasticity (1995, section 4): after the positions have moved, structural and shear springs
+/// whose strain |l|/l0 - 1 is above max_strain are shortened along themselves until none is. Their ends share the shift
+/// by inverse mass; a pinned end stays. Velocities follow: v <- v + (x_corrected - x)/h; without this the method is
+/// unstable. The momentum of what is not pinned stays.
+///
+/// The plain sweeps shorten every spring to exactly max_strain. Tensions shorten to a margin below it, which is at its
+/// least, half a percent of max_strain, while steps need few passes.
 class StrainLimit
 {
 public:
   /// A strain this much above max_strain, relative to it, counts as reached.
   static constexpr double tolerance = 0.02;
+  /// Where tensions hold springs below max_strain, relative to it.
+  static constexpr double least_margin = 0.005;
+  static constexpr double most_margin = 0.15;
 
   StrainLimit(const ClothModel& model, const StrainLimitProperties& properties);
   StrainLimit(StrainLimit&&) noexcept;
