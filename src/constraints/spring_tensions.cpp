@@ -233,6 +233,7 @@ StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_m
   {
     add_tensions_to(*shifts);
   }
+  reached_ = report.reached;
   margin_ = std::clamp(margin_ * (report.sweeps > few ? margin_growth : margin_decay), StrainLimit::least_margin,
                        StrainLimit::most_margin);
   return report;
@@ -278,7 +279,7 @@ bool SpringTensions::pull_as_before(const std::vector<double>& inverse_masses, V
     let_go();
     return false;
   }
-  const double factor = std::min(rise / square, most_growth);
+  const double factor = std::min(rise / square, reached_ ? most_growth : most_growth_of_a_failure);
   scale_tensions(factor);
   positions += factor * shifts_;
   return true;

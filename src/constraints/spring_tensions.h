@@ -40,8 +40,10 @@ private:
   static constexpr double margin_growth = 1.2;
   static constexpr double margin_decay = 0.98;
   static constexpr int few = 4;
-  /// The most by which tensions grow before a step's passes.
+  /// The most by which tensions grow before a step's passes: they fade where the last step did not reach the limit,
+  /// because between pins that are too far apart they would grow for ever.
   static constexpr double most_growth = 2.0;
+  static constexpr double most_growth_of_a_failure = 0.9;
 
   struct Batch
   {
@@ -79,6 +81,7 @@ private:
 
   int rows_;
   double max_strain_;
+  bool reached_ = true;
   double margin_ = StrainLimit::least_margin;
   std::vector<Batch> batches_;
   std::vector<long> moved_at_;  ///< for each block of nodes

@@ -44,13 +44,19 @@ public:
       predict(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       dynamics.pins().impose(state.time, state.positions, state.velocities);
+      ways_ = substep * state.velocities;
+      for (const Pin& pin : dynamics.pins().all())
+      {
+        ways_(pin.nodes, Eigen::all) = state.positions(pin.nodes, Eigen::all) - before_(pin.nodes, Eigen::all);
+      }
       if (records())
       {
         record_external_forces(dynamics, substep, state);
       }
-      project(model, substep, state.positions);
-      state.velocities = (state.positions - before_) / substep;
-      dynamics.pins().impose_velocities(state.time, state.velocities);
+      project(model, substep);
+      state.velocities = ways_ / substep;
+      state.positions = before_ + ways_;
+      dynamics.pins().impose(state.time, state.positions, state.velocities);
     }
     StepReport report;
     report.force_evaluations = substeps_;
@@ -85,7 +91,7 @@ private:
   }
 
   /// Row of nodes by row of nodes, so that a row's springs of all batches are done while it is in the nearest cache.
-  void project(const ClothModel& model, double h, Vectors& positions)
+  void project(const ClothModel& model, double h)
   {
     in_widest_vectors([&](auto arithmetic) {
       for (int r = 0; r < model.rows; ++r)
@@ -96,14 +102,14 @@ private:
           {
             const int node = batch.first + r * batch.row_stride + done;
             const int n = std::min(spring_row_size, batch.cols - done);
-            const SpringRow row(inverse_masses_.data(), positions, node, batch.offset, n);
+            const SpringRow ways(inverse_masses_.data(), ways_, node, batch.offset, n);
             const SpringRow before(inverse_masses_.data(), before_, node, batch.offset, n);
             const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h),
                                compliance_ / (batch.stiffness * h * h), batch.rest_length };
             in_turns(batch.offset, n, [&](auto&& is_chosen) {
               RowChanges changes;
-              find_changes<arithmetic.has_fused_multiply_add>(row, before, gains, is_chosen, changes);
-              move_ends(row, changes);
+              find_changes<arithmetic.has_fused_multiply_add>(ways, before, gains, is_chosen, changes);
+              move_ends(ways, changes);
               if (records())
               {
                 record(changes, node, batch.offset, n, h);
@@ -123,39 +129,40 @@ private:
   };
 
   template <bool fused, typename IsChosen>
-  static void find_changes(const SpringRow& row, const SpringRow& before, const Gains& gains, IsChosen&& is_chosen,
+  static void find_changes(const SpringRow& ways, const SpringRow& before, const Gains& gains, IsChosen&& is_chosen,
                            RowChanges& changes)
   {
     const double rest_length = gains.rest_length;
     const double damping = gains.damping;
     const double compliance = gains.compliance;
-    const double* const w_i = row.w_i;
-    const double* const w_j = row.w_j;
-    const double* const x_i = row.i[0];
-    const double* const y_i = row.i[1];
-    const double* const z_i = row.i[2];
-    const double* const x_j = row.j[0];
-    const double* const y_j = row.j[1];
-    const double* const z_j = row.j[2];
-    const double* const before_x_i = before.i[0];
-    const double* const before_y_i = before.i[1];
-    const double* const before_z_i = before.i[2];
-    const double* const before_x_j = before.j[0];
-    const double* const before_y_j = before.j[1];
-    const double* const before_z_j = before.j[2];
-    const int n = row.n;
+    const double* const w_i = ways.w_i;
+    const double* const w_j = ways.w_j;
+    const double* const way_x_i = ways.i[0];
+    const double* const way_y_i = ways.i[1];
+    const double* const way_z_i = ways.i[2];
+    const double* const way_x_j = ways.j[0];
+    const double* const way_y_j = ways.j[1];
+    const double* const way_z_j = ways.j[2];
+    const double* const x_i = before.i[0];
+    const double* const y_i = before.i[1];
+    const double* const z_i = before.i[2];
+    const double* const x_j = before.j[0];
+    const double* const y_j = before.j[1];
+    const double* const z_j = before.j[2];
+    const int n = ways.n;
 #pragma GCC ivdep
     for (int k = 0; k < n; ++k)
     {
-      const double x = x_j[k] - x_i[k];
-      const double y = y_j[k] - y_i[k];
-      const double z = z_j[k] - z_i[k];
+      const double way_x = way_x_j[k] - way_x_i[k];
+      const double way_y = way_y_j[k] - way_y_i[k];
+      const double way_z = way_z_j[k] - way_z_i[k];
+      const double x = x_j[k] - x_i[k] + way_x;
+      const double y = y_j[k] - y_i[k] + way_y;
+      const double z = z_j[k] - z_i[k] + way_z;
       const double square = x * x + y * y + z * z;
       const double inverse = inverse_root<fused>(square);
       const double w = w_i[k] + w_j[k];
-      const double lengthening =
-          inverse * (x * (x - before_x_j[k] + before_x_i[k]) + y * (y - before_y_j[k] + before_y_i[k]) +
-                     z * (z - before_z_j[k] + before_z_i[k]));
+      const double lengthening = inverse * (x * way_x + y * way_y + z * way_z);
       const double resistance = (1.0 + damping) * w + compliance;
       const double lambda = (square * inverse - rest_length + damping * lengthening) / resistance;
       const double part = is_chosen(k) && w > 0.0 ? lambda * inverse : 0.0;
@@ -169,7 +176,8 @@ private:
   double compliance_;
   Eigen::VectorXd inverse_masses_;
   Vectors accelerations_;
-  Vectors before_;
+  Vectors before_;  ///< positions at the substep's begin
+  Vectors ways_;    ///< from there, m: velocities follow from them without the rounding of positions
 };
 
 }  // namespace
