@@ -166,15 +166,14 @@ private:
 
 }  // namespace
 
-PlainSweeps::PlainSweeps(const ClothModel& model, double max_strain)
-  : batches_(limited_batches(model)), max_strain_(max_strain)
+PlainSweeps::PlainSweeps(const ClothModel& model) : batches_(limited_batches(model))
 {
 }
 
-StrainLimit::Report PlainSweeps::shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
-                                         Vectors* shifts)
+StrainLimit::Report PlainSweeps::shorten(const std::vector<double>& inverse_masses, double max_strain, int passes,
+                                         Vectors& positions, Vectors* shifts)
 {
-  Sweeps sweeps(batches_, max_strain_, inverse_masses, positions, shifts);
+  Sweeps sweeps(batches_, max_strain, inverse_masses, positions, shifts);
   StrainLimit::Report report;
   bool corrected = true;
   while (corrected && report.sweeps < passes)

@@ -15,14 +15,13 @@ namespace cloth
 class PlainSweeps : public Shortening
 {
 public:
-  PlainSweeps(const ClothModel& model, double max_strain);
+  explicit PlainSweeps(const ClothModel& model);
 
-  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
-                              Vectors* shifts) override;
+  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, double max_strain, int passes,
+                              Vectors& positions, Vectors* shifts) override;
 
 private:
   std::vector<SpringBatch> batches_;
-  double max_strain_;
 };
 
 }  // namespace cloth

@@ -72,6 +72,9 @@ void move_ends(const Stretch& s, const Changes<spring_row_size>& changes)
 
 using Tensions = std::array<double*, 3>;
 
+/// Of a spring, over that of its ends' masses: only the choice of the first guess knows of it.
+constexpr double compliance = 1e-3;
+
 /// Gives the chosen springs the tension that is right if all others' are, and moves their ends by the change. Returns
 /// whether any of them is taut.
 template <bool fused, typename IsChosen>
@@ -114,10 +117,18 @@ bool relax(const SpringRow& row, const Tensions& tensions, double longest, IsCho
   return taut != 0;
 }
 
-/// Adds to the shifts of nodes what their springs' tensions p ask for, and returns the sum of p . l - |p| longest, l
-/// being the springs at their positions.
+/// The dual objective along tensions that are multiplied by t is rise t - curvature t^2/2.
+struct DualParabola
+{
+  double rise = 0.0;
+  double curvature = 0.0;
+};
+
+/// Adds to the shifts of nodes what their springs' tensions p ask for, and to the parabola the sum of p . l - |p|
+/// longest, l being the springs at their positions, and of the compliance times (1/m_i + 1/m_j) |p|^2.
 template <bool fused>
-double add_shifts(const SpringRow& positions, const Tensions& tensions, double longest, const SpringRow& shifts)
+void add_shifts(const SpringRow& positions, const Tensions& tensions, double longest, const SpringRow& shifts,
+                DualParabola& parabola)
 {
   RowChanges pulls;
   const double* const x_i = positions.i[0];
@@ -130,21 +141,26 @@ double add_shifts(const SpringRow& positions, const Tensions& tensions, double l
   const double* const p_y = tensions[1];
   const double* const p_z = tensions[2];
   const int n = positions.n;
-  double sum = 0.0;
+  const double* const w_i = positions.w_i;
+  const double* const w_j = positions.w_j;
+  double rise = 0.0;
+  double squares = 0.0;
   for (int k = 0; k < n; ++k)
   {
     const double x = p_x[k];
     const double y = p_y[k];
     const double z = p_z[k];
     const double square = x * x + y * y + z * z;
-    sum += x * (x_j[k] - x_i[k]) + y * (y_j[k] - y_i[k]) + z * (z_j[k] - z_i[k]) -
-           longest * square * inverse_root<fused>(square);
+    rise += x * (x_j[k] - x_i[k]) + y * (y_j[k] - y_i[k]) + z * (z_j[k] - z_i[k]) -
+            longest * square * inverse_root<fused>(square);
+    squares += (w_i[k] + w_j[k]) * square;
     pulls.x[k] = x;
     pulls.y[k] = y;
     pulls.z[k] = z;
   }
   move_ends(shifts, pulls);
-  return sum;
+  parabola.rise += rise;
+  parabola.curvature += compliance * squares;
 }
 
 /// Whether the square of a length between the two stretches of n nodes is above `squared`, their inverse masses not
@@ -172,8 +188,8 @@ bool any_longer(const Vectors& positions, const double* inverse_masses, int i, i
 
 }  // namespace
 
-SpringTensions::SpringTensions(const ClothModel& model, double max_strain)
-  : rows_(model.rows), max_strain_(max_strain), moved_at_(static_cast<size_t>(model.nodes() / spring_row_size + 1), 0)
+SpringTensions::SpringTensions(const ClothModel& model)
+  : rows_(model.rows), moved_at_(static_cast<size_t>(model.nodes() / spring_row_size + 1), 0)
 {
   for (const SpringBatch& springs : limited_batches(model))
   {
@@ -209,9 +225,10 @@ void SpringTensions::for_each_block(bool backwards, Visit&& visit)
   }
 }
 
-StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
-                                            Vectors* shifts)
+StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_masses, double max_strain, int passes,
+                                            Vectors& positions, Vectors* shifts)
 {
+  max_strain_ = max_strain;
   ++now_;
   std::fill(moved_at_.begin(), moved_at_.end(), now_);
   StrainLimit::Report report;
@@ -251,35 +268,36 @@ double SpringTensions::target_length(const Batch& batch) const
 }
 
 // The dual objective, sum of p . l - |p| l_max less half the sum of m |shift|^2, is 0 without tensions; along the
-// tensions of the last step it is highest where they are multiplied by the factor below.
+// tensions of the last step it is highest where they are multiplied by the factor below. Tensions that shift nothing,
+// because they hold each other or pull on pins alone, would be multiplied for ever were springs not thought to give way
+// a little at this point.
 bool SpringTensions::pull_as_before(const std::vector<double>& inverse_masses, Vectors& positions)
 {
   shifts_.setZero(positions.rows(), 3);
-  double rise = 0.0;
+  DualParabola parabola;
   in_widest_vectors([&](auto arithmetic) {
     for_each_block(false, [&](Batch& batch, const Block& block) {
       if (batch.is_taut[block.index])
       {
         const int offset = batch.springs.offset;
         const double* const w = inverse_masses.data();
-        rise += add_shifts<arithmetic.has_fused_multiply_add>(SpringRow(w, positions, block.node, offset, block.n),
-                                                              tensions_of(batch, block), target_length(batch),
-                                                              SpringRow(w, shifts_, block.node, offset, block.n));
+        add_shifts<arithmetic.has_fused_multiply_add>(SpringRow(w, positions, block.node, offset, block.n),
+                                                      tensions_of(batch, block), target_length(batch),
+                                                      SpringRow(w, shifts_, block.node, offset, block.n), parabola);
       }
     });
   });
-  double square = 0.0;
   for (int i = 0; i < positions.rows(); ++i)
   {
     const double w = inverse_masses[static_cast<size_t>(i)];
-    square += w > 0.0 ? shifts_.row(i).squaredNorm() / w : 0.0;
+    parabola.curvature += w > 0.0 ? shifts_.row(i).squaredNorm() / w : 0.0;
   }
-  if (!(rise > 0.0 && square > 0.0))
+  if (!(parabola.rise > 0.0 && parabola.curvature > 0.0))
   {
     let_go();
     return false;
   }
-  const double factor = std::min(rise / square, reached_ ? most_growth : most_growth_of_a_failure);
+  const double factor = std::min(parabola.rise / parabola.curvature, reached_ ? most_growth : most_growth_of_a_failure);
   scale_tensions(factor);
   positions += factor * shifts_;
   return true;

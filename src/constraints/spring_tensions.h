@@ -29,10 +29,10 @@ namespace cloth
 class SpringTensions : public Shortening
 {
 public:
-  SpringTensions(const ClothModel& model, double max_strain);
+  explicit SpringTensions(const ClothModel& model);
 
-  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, int passes, Vectors& positions,
-                              Vectors* shifts) override;
+  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, double max_strain, int passes,
+                              Vectors& positions, Vectors* shifts) override;
 
 private:
   /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do
@@ -80,7 +80,7 @@ private:
   long last_move(int node, int n) const;
 
   int rows_;
-  double max_strain_;
+  double max_strain_ = 0.0;  ///< of the step
   bool reached_ = true;
   double margin_ = StrainLimit::least_margin;
   std::vector<Batch> batches_;

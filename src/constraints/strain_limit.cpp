@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "plain_sweeps.h"
 #include "shortening.h"
@@ -20,9 +21,9 @@ std::unique_ptr<Shortening> make_shortening(const ClothModel& model, const Strai
   }
   if (properties.solver == LimitSolver::plain_sweeps)
   {
-    return std::make_unique<PlainSweeps>(model, properties.max_strain);
+    return std::make_unique<PlainSweeps>(model);
   }
-  return std::make_unique<SpringTensions>(model, properties.max_strain);
+  return std::make_unique<SpringTensions>(model);
 }
 
 }  // namespace
@@ -45,6 +46,26 @@ StrainLimit::StrainLimit(StrainLimit&&) noexcept = default;
 StrainLimit& StrainLimit::operator=(StrainLimit&&) noexcept = default;
 StrainLimit::~StrainLimit() = default;
 
+/// Looks again only after pins have moved.
+void StrainLimit::find_reach(const ClothModel& model, const Pins& pins, const Vectors& positions)
+{
+  std::vector<double> held;
+  for (const Pin& pin : pins.all())
+  {
+    held.push_back(std::numeric_limits<double>::infinity());
+    for (const int node : pin.nodes)
+    {
+      held.insert(held.end(),
+                  { static_cast<double>(node), positions(node, 0), positions(node, 1), positions(node, 2) });
+    }
+  }
+  if (held != held_)
+  {
+    held_.swap(held);
+    reach_ = reach_of(model, pins, positions);
+  }
+}
+
 StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state,
                                        Vectors* impulses)
 {
@@ -52,9 +73,11 @@ StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins
   {
     inverse_masses_[static_cast<size_t>(i)] = pins.holds(i) ? 0.0 : 1.0 / model.masses[i];
   }
+  find_reach(model, pins, state.positions);
+  const double max_strain = std::max(properties_.max_strain, reach_.strain * room_of_reach);
   uncorrected_ = state.positions;
   Vectors shifts = Vectors::Zero(impulses != nullptr ? model.nodes() : 0, 3);
-  const Report report = shortening_->shorten(inverse_masses_, properties_.sweeps, state.positions,
+  const Report report = shortening_->shorten(inverse_masses_, max_strain, properties_.sweeps, state.positions,
                                              impulses != nullptr ? &shifts : nullptr);
   if (report.moved)
   {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "cloth_sim/constraints/pin_reach.h"
 #include "cloth_sim/constraints/pins.h"
 #include "cloth_sim/model/cloth_model.h"
 #include "cloth_sim/model/cloth_state.h"
@@ -57,6 +58,13 @@ public:
     return properties_;
   }
 
+  /// What the pins demanded of the sheet when `apply` was called last. Where that is more than max_strain, the limit is
+  /// raised to 1.05 of it, so that there is a shape that obeys it.
+  const PinReach& reach() const
+  {
+    return reach_;
+  }
+
   /// What one call did.
   struct Report
   {
@@ -71,9 +79,15 @@ public:
   Report apply(const ClothModel& model, const Pins& pins, double h, ClothState& state, Vectors* impulses = nullptr);
 
 private:
+  static constexpr double room_of_reach = 1.05;
+
+  void find_reach(const ClothModel& model, const Pins& pins, const Vectors& positions);
+
   StrainLimitProperties properties_;
   std::unique_ptr<Shortening> shortening_;
   std::vector<double> inverse_masses_;
+  PinReach reach_;
+  std::vector<double> held_;  ///< nodes and positions, pin by pin, that reach_ was found for
   Vectors uncorrected_;
 };
 
