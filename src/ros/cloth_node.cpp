@@ -503,6 +503,11 @@ void ClothNode::publish_stats_when_due()
   {
     state_.publish(state_message_);  // for those who came since
   }
+  const std::string too_far = reach_warning(simulation);
+  if (!too_far.empty())
+  {
+    ROS_WARN_THROTTLE(10.0, "%s", too_far.c_str());
+  }
   const std::string unsolved = convergence_warning(simulation);
   if (!unsolved.empty())
   {

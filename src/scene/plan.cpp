@@ -330,4 +330,17 @@ std::string convergence_warning(const Simulation& simulation)
          (std::string(simulation.method().name) == "projective" ? ", and so do more solver.iterations" : "");
 }
 
+std::string reach_warning(const Simulation& simulation)
+{
+  const StrainLimit& limit = simulation.strain_limit();
+  if (!limit.active() || limit.reach().strain <= limit.properties().max_strain)
+  {
+    return {};
+  }
+  return "the pins " + limit.reach().first + " and " + limit.reach().second +
+         " are so far apart that springs between them are strained by " + format_number(limit.reach().strain) +
+         " at least, and strain_limit.max_strain is " + format_number(limit.properties().max_strain) +
+         ": the limit gives way; bring the pins nearer to each other";
+}
+
 }  // namespace cloth

@@ -53,4 +53,7 @@ std::string time_step_warning(const Simulation& simulation);
 /// none.
 std::string convergence_warning(const Simulation& simulation);
 
+/// Which pins are too far apart for the strain limit as they are now, and by how much. Empty: none are.
+std::string reach_warning(const Simulation& simulation);
+
 }  // namespace cloth
