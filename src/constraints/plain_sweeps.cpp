@@ -19,7 +19,7 @@ class Sweeps
 {
 public:
   /// `shifts`, unless null, gets what the held ends of springs were spared: their mass times way, kg m.
-  Sweeps(const std::vector<SpringBatch>& batches, double max_strain, const std::vector<double>& inverse_masses,
+  Sweeps(const std::vector<SpringBatch>& batches, double max_strain, const Eigen::VectorXd& inverse_masses,
          Vectors& positions, Vectors* shifts)
     : batches_(batches)
     , max_strain_(max_strain)
@@ -124,7 +124,7 @@ private:
   void shorten(int i, int j)
   {
     const double squared = squared_length(i, j);
-    const double inverse_masses = inverse_masses_[static_cast<size_t>(i)] + inverse_masses_[static_cast<size_t>(j)];
+    const double inverse_masses = inverse_masses_[i] + inverse_masses_[j];
     if (squared <= squared_too_long_ || inverse_masses == 0.0)
     {
       return;
@@ -136,8 +136,8 @@ private:
       shifts_->row(i) += part * pull;
       shifts_->row(j) -= part * pull;
     }
-    const double share_i = part * inverse_masses_[static_cast<size_t>(i)];
-    const double share_j = part * inverse_masses_[static_cast<size_t>(j)];
+    const double share_i = part * inverse_masses_[i];
+    const double share_j = part * inverse_masses_[j];
     for (double* const column : { x_, y_, z_ })
     {
       const double difference = column[j] - column[i];
@@ -151,7 +151,7 @@ private:
 
   const std::vector<SpringBatch>& batches_;
   const double max_strain_;
-  const std::vector<double>& inverse_masses_;
+  const Eigen::VectorXd& inverse_masses_;
   double* const x_;
   double* const y_;
   double* const z_;
@@ -170,7 +170,7 @@ PlainSweeps::PlainSweeps(const ClothModel& model) : batches_(limited_batches(mod
 {
 }
 
-StrainLimit::Report PlainSweeps::shorten(const std::vector<double>& inverse_masses, double max_strain, int passes,
+StrainLimit::Report PlainSweeps::shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
                                          Vectors& positions, Vectors* shifts)
 {
   Sweeps sweeps(batches_, max_strain, inverse_masses, positions, shifts);

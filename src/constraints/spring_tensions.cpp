@@ -95,23 +95,25 @@ bool relax(const SpringRow& row, const Tensions& tensions, double longest, IsCho
   double* const p_y = tensions[1];
   double* const p_z = tensions[2];
   const int n = row.n;
+  const int padded = row.padded;
 #pragma GCC ivdep
-  for (int k = 0; k < n; ++k)
+  for (int k = 0; k < padded; ++k)
   {
     const double w = w_i[k] + w_j[k];
     const double x = x_j[k] - x_i[k] + w * p_x[k];
     const double y = y_j[k] - y_i[k] + w * p_y[k];
     const double z = z_j[k] - z_i[k] + w * p_z[k];
     const double square = x * x + y * y + z * z;
+    const bool is_looked_at = is_chosen(k) && k < n;
     const bool is_taut = square > squared && w > 0.0;
     const double part = is_taut ? (1.0 - longest * inverse_root<fused>(square)) / w : 0.0;
-    changes.x[k] = is_chosen(k) ? part * x - p_x[k] : 0.0;
-    changes.y[k] = is_chosen(k) ? part * y - p_y[k] : 0.0;
-    changes.z[k] = is_chosen(k) ? part * z - p_z[k] : 0.0;
+    changes.x[k] = is_looked_at ? part * x - p_x[k] : 0.0;
+    changes.y[k] = is_looked_at ? part * y - p_y[k] : 0.0;
+    changes.z[k] = is_looked_at ? part * z - p_z[k] : 0.0;
     p_x[k] += changes.x[k];
     p_y[k] += changes.y[k];
     p_z[k] += changes.z[k];
-    taut |= is_chosen(k) && is_taut ? 1 : 0;
+    taut |= is_looked_at && is_taut ? 1 : 0;
   }
   move_ends(row, changes);
   return taut != 0;
@@ -141,15 +143,16 @@ void add_shifts(const SpringRow& positions, const Tensions& tensions, double lon
   const double* const p_y = tensions[1];
   const double* const p_z = tensions[2];
   const int n = positions.n;
+  const int padded = positions.padded;
   const double* const w_i = positions.w_i;
   const double* const w_j = positions.w_j;
   double rise = 0.0;
   double squares = 0.0;
-  for (int k = 0; k < n; ++k)
+  for (int k = 0; k < padded; ++k)
   {
-    const double x = p_x[k];
-    const double y = p_y[k];
-    const double z = p_z[k];
+    const double x = k < n ? p_x[k] : 0.0;
+    const double y = k < n ? p_y[k] : 0.0;
+    const double z = k < n ? p_z[k] : 0.0;
     const double square = x * x + y * y + z * z;
     rise += x * (x_j[k] - x_i[k]) + y * (y_j[k] - y_i[k]) + z * (z_j[k] - z_i[k]) -
             longest * square * inverse_root<fused>(square);
@@ -176,12 +179,14 @@ bool any_longer(const Vectors& positions, const double* inverse_masses, int i, i
   const double* const y_j = y_i + offset;
   const double* const z_j = z_i + offset;
   std::int64_t any = 0;
-  for (int k = 0; k < n; ++k)
+  const int padded = (n + row_padding - 1) / row_padding * row_padding;
+  for (int k = 0; k < padded; ++k)
   {
     const double x = x_j[k] - x_i[k];
     const double y = y_j[k] - y_i[k];
     const double z = z_j[k] - z_i[k];
-    any |= x * x + y * y + z * z > squared && w_i[k] + w_j[k] > 0.0 ? 1 : 0;
+    const bool is_longer = x * x + y * y + z * z > squared && w_i[k] + w_j[k] > 0.0;
+    any |= is_longer && k < n ? 1 : 0;
   }
   return any != 0;
 }
@@ -194,7 +199,7 @@ SpringTensions::SpringTensions(const ClothModel& model)
   for (const SpringBatch& springs : limited_batches(model))
   {
     const int blocks_a_row = (springs.cols + spring_row_size - 1) / spring_row_size;
-    const std::vector<double> none(static_cast<size_t>(springs.size()), 0.0);
+    const std::vector<double> none(static_cast<size_t>(springs.size() + row_padding), 0.0);
     const size_t blocks = static_cast<size_t>(springs.rows * blocks_a_row);
     batches_.push_back(
         { springs, blocks_a_row, { none, none, none }, std::vector<char>(blocks, 0), std::vector<long>(blocks, -1) });
@@ -225,7 +230,7 @@ void SpringTensions::for_each_block(bool backwards, Visit&& visit)
   }
 }
 
-StrainLimit::Report SpringTensions::shorten(const std::vector<double>& inverse_masses, double max_strain, int passes,
+StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
                                             Vectors& positions, Vectors* shifts)
 {
   max_strain_ = max_strain;
@@ -271,7 +276,7 @@ double SpringTensions::target_length(const Batch& batch) const
 // tensions of the last step it is highest where they are multiplied by the factor below. Tensions that shift nothing,
 // because they hold each other or pull on pins alone, would be multiplied for ever were springs not thought to give way
 // a little at this point.
-bool SpringTensions::pull_as_before(const std::vector<double>& inverse_masses, Vectors& positions)
+bool SpringTensions::pull_as_before(const Eigen::VectorXd& inverse_masses, Vectors& positions)
 {
   shifts_.setZero(positions.rows(), 3);
   DualParabola parabola;
@@ -289,7 +294,7 @@ bool SpringTensions::pull_as_before(const std::vector<double>& inverse_masses, V
   });
   for (int i = 0; i < positions.rows(); ++i)
   {
-    const double w = inverse_masses[static_cast<size_t>(i)];
+    const double w = inverse_masses[i];
     parabola.curvature += w > 0.0 ? shifts_.row(i).squaredNorm() / w : 0.0;
   }
   if (!(parabola.rise > 0.0 && parabola.curvature > 0.0))
@@ -345,7 +350,7 @@ void SpringTensions::scale_tensions(double factor)
   });
 }
 
-bool SpringTensions::find_too_long(const std::vector<double>& inverse_masses, const Vectors& positions)
+bool SpringTensions::find_too_long(const Eigen::VectorXd& inverse_masses, const Vectors& positions)
 {
   bool found = false;
   in_widest_vectors([&](auto) {
@@ -371,7 +376,7 @@ bool SpringTensions::find_too_long(const std::vector<double>& inverse_masses, co
   return found;
 }
 
-void SpringTensions::relax_taut_blocks(bool backwards, const std::vector<double>& inverse_masses, Vectors& positions)
+void SpringTensions::relax_taut_blocks(bool backwards, const Eigen::VectorXd& inverse_masses, Vectors& positions)
 {
   ++now_;
   in_widest_vectors([&](auto arithmetic) {

@@ -31,8 +31,8 @@ class SpringTensions : public Shortening
 public:
   explicit SpringTensions(const ClothModel& model);
 
-  StrainLimit::Report shorten(const std::vector<double>& inverse_masses, double max_strain, int passes,
-                              Vectors& positions, Vectors* shifts) override;
+  StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, Vectors& positions,
+                              Vectors* shifts) override;
 
 private:
   /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do
@@ -70,9 +70,9 @@ private:
   static std::array<double*, 3> tensions_of(Batch& batch, const Block& block);
   double target_length(const Batch& batch) const;
   /// Pulls with the tensions of the last step times the factor that is best for them. False: they are of no use.
-  bool pull_as_before(const std::vector<double>& inverse_masses, Vectors& positions);
-  bool find_too_long(const std::vector<double>& inverse_masses, const Vectors& positions);
-  void relax_taut_blocks(bool backwards, const std::vector<double>& inverse_masses, Vectors& positions);
+  bool pull_as_before(const Eigen::VectorXd& inverse_masses, Vectors& positions);
+  bool find_too_long(const Eigen::VectorXd& inverse_masses, const Vectors& positions);
+  void relax_taut_blocks(bool backwards, const Eigen::VectorXd& inverse_masses, Vectors& positions);
   void add_tensions_to(Vectors& shifts);
   void let_go();
   void scale_tensions(double factor);

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <limits>
 
+#include "cloth_sim/model/spring_rows.h"
+
 #include "plain_sweeps.h"
 #include "shortening.h"
 #include "spring_tensions.h"
@@ -39,7 +41,8 @@ std::vector<SpringBatch> limited_batches(const ClothModel& model)
 StrainLimit::StrainLimit(const ClothModel& model, const StrainLimitProperties& properties)
   : properties_(properties), shortening_(make_shortening(model, properties))
 {
-  inverse_masses_.resize(static_cast<size_t>(model.nodes()));
+  inverse_masses_.setZero(model.nodes() + row_padding);
+  corrected_.setZero(model.nodes() + row_padding, 3);
 }
 
 StrainLimit::StrainLimit(StrainLimit&&) noexcept = default;
@@ -69,19 +72,17 @@ void StrainLimit::find_reach(const ClothModel& model, const Pins& pins, const Ve
 StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state,
                                        Vectors* impulses)
 {
-  for (int i = 0; i < model.nodes(); ++i)
-  {
-    inverse_masses_[static_cast<size_t>(i)] = pins.holds(i) ? 0.0 : 1.0 / model.masses[i];
-  }
+  pins.find_inverse_masses(model.masses, inverse_masses_);
   find_reach(model, pins, state.positions);
   const double max_strain = std::max(properties_.max_strain, reach_.strain * room_of_reach);
-  uncorrected_ = state.positions;
+  corrected_.topRows(model.nodes()) = state.positions;
   Vectors shifts = Vectors::Zero(impulses != nullptr ? model.nodes() : 0, 3);
-  const Report report = shortening_->shorten(inverse_masses_, max_strain, properties_.sweeps, state.positions,
+  const Report report = shortening_->shorten(inverse_masses_, max_strain, properties_.sweeps, corrected_,
                                              impulses != nullptr ? &shifts : nullptr);
   if (report.moved)
   {
-    state.velocities += (state.positions - uncorrected_) / h;
+    state.velocities += (corrected_.topRows(model.nodes()) - state.positions) / h;
+    state.positions = corrected_.topRows(model.nodes());
   }
   if (impulses != nullptr)
   {

@@ -31,20 +31,17 @@ public:
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
     const ClothModel& model = dynamics.model();
-    inverse_masses_.resize(model.nodes());
-    for (int i = 0; i < model.nodes(); ++i)
-    {
-      inverse_masses_[i] = dynamics.pins().holds(i) ? 0.0 : 1.0 / model.masses[i];
-    }
+    make_room_for(model.nodes());
+    dynamics.pins().find_inverse_masses(model.masses, inverse_masses_);
     const double begin = state.time;
     const double substep = h / substeps_;
     for (int s = 1; s <= substeps_; ++s)
     {
-      before_ = state.positions;
+      before_.topRows(model.nodes()) = state.positions;
       predict(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       dynamics.pins().impose(state.time, state.positions, state.velocities);
-      ways_ = substep * state.velocities;
+      ways_.topRows(model.nodes()) = substep * state.velocities;
       for (const Pin& pin : dynamics.pins().all())
       {
         ways_(pin.nodes, Eigen::all) = state.positions(pin.nodes, Eigen::all) - before_(pin.nodes, Eigen::all);
@@ -54,8 +51,8 @@ public:
         record_external_forces(dynamics, substep, state);
       }
       project(model, substep);
-      state.velocities = ways_ / substep;
-      state.positions = before_ + ways_;
+      state.velocities = ways_.topRows(model.nodes()) / substep;
+      state.positions = before_.topRows(model.nodes()) + ways_.topRows(model.nodes());
       dynamics.pins().impose(state.time, state.positions, state.velocities);
     }
     StepReport report;
@@ -64,6 +61,16 @@ public:
   }
 
 private:
+  void make_room_for(int nodes)
+  {
+    if (inverse_masses_.size() != nodes + row_padding)
+    {
+      inverse_masses_.setZero(nodes + row_padding);
+      before_.setZero(nodes + row_padding, 3);
+      ways_.setZero(nodes + row_padding, 3);
+    }
+  }
+
   void predict(const Dynamics& dynamics, double h, ClothState& state)
   {
     dynamics.external_forces_on_all(state.time, accelerations_);
@@ -150,8 +157,9 @@ private:
     const double* const y_j = before.j[1];
     const double* const z_j = before.j[2];
     const int n = ways.n;
+    const int padded = ways.padded;
 #pragma GCC ivdep
-    for (int k = 0; k < n; ++k)
+    for (int k = 0; k < padded; ++k)
     {
       const double way_x = way_x_j[k] - way_x_i[k];
       const double way_y = way_y_j[k] - way_y_i[k];
@@ -165,7 +173,7 @@ private:
       const double lengthening = inverse * (x * way_x + y * way_y + z * way_z);
       const double resistance = (1.0 + damping) * w + compliance;
       const double lambda = (square * inverse - rest_length + damping * lengthening) / resistance;
-      const double part = is_chosen(k) && w > 0.0 ? lambda * inverse : 0.0;
+      const double part = is_chosen(k) && k < n && w > 0.0 ? lambda * inverse : 0.0;
       changes.x[k] = part * x;
       changes.y[k] = part * y;
       changes.z[k] = part * z;

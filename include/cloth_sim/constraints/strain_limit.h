@@ -85,10 +85,10 @@ private:
 
   StrainLimitProperties properties_;
   std::unique_ptr<Shortening> shortening_;
-  std::vector<double> inverse_masses_;
+  Eigen::VectorXd inverse_masses_;  ///< and room behind the last node
   PinReach reach_;
   std::vector<double> held_;  ///< nodes and positions, pin by pin, that reach_ was found for
-  Vectors uncorrected_;
+  Vectors corrected_;
 };
 
 }  // namespace cloth

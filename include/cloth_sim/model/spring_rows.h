@@ -10,7 +10,11 @@ namespace cloth
 {
 
 /// The most springs that are corrected in one go.
-inline constexpr int spring_row_size = 32;
+inline constexpr int spring_row_size = 64;
+
+/// Loops over the springs of a row go on to a whole number of the widest vectors, where they change nothing. Arrays of
+/// what they read and write have so much room behind the last node or spring.
+inline constexpr int row_padding = 8;
 
 /// At most `spring_row_size` springs in a row of a batch: spring k joins node i + k and the node `offset` further on.
 struct SpringRow
@@ -22,6 +26,7 @@ struct SpringRow
     , i{ vectors.col(0).data() + node, vectors.col(1).data() + node, vectors.col(2).data() + node }
     , j{ i[0] + offset, i[1] + offset, i[2] + offset }
     , n(springs)
+    , padded((springs + row_padding - 1) / row_padding * row_padding)
   {
   }
 
@@ -30,9 +35,10 @@ struct SpringRow
   std::array<double*, 3> i;  ///< x, y, z of the first ends
   std::array<double*, 3> j;
   int n;
+  int padded;  ///< n and what makes it a whole number of vectors
 };
 
-/// A vector for each spring of a row.
+/// A vector for each spring of a row, and zero for what makes it a whole number of vectors.
 struct RowChanges
 {
   alignas(64) double x[spring_row_size];
@@ -46,7 +52,7 @@ inline void move_ends(const SpringRow& row, const RowChanges& changes)
   const double* const columns[] = { changes.x, changes.y, changes.z };
   const double* const w_i = row.w_i;
   const double* const w_j = row.w_j;
-  const int n = row.n;
+  const int n = row.padded;
   for (size_t d = 0; d < 3; ++d)
   {
     const double* const change = columns[d];
