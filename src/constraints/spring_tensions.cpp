@@ -73,7 +73,7 @@ void move_ends(const Stretch& s, const Changes<spring_row_size>& changes)
 using Tensions = std::array<double*, 3>;
 
 /// Of a spring, over that of its ends' masses: only the choice of the first guess knows of it.
-constexpr double compliance = 1e-3;
+constexpr double compliance = 1e-4;
 
 /// Gives the chosen springs the tension that is right if all others' are, and moves their ends by the change. Returns
 /// whether any of them is taut.

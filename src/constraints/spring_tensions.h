@@ -37,13 +37,12 @@ public:
 private:
   /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do
   /// not. Within a step it stays the same.
-  static constexpr double margin_growth = 1.2;
+  static constexpr double margin_growth = 1.5;
   static constexpr double margin_decay = 0.98;
-  static constexpr int few = 4;
-  /// The most by which tensions grow before a step's passes: they fade where the last step did not reach the limit,
-  /// because between pins that are too far apart they would grow for ever.
+  static constexpr int few = 2;
+  /// The most by which tensions grow before a step's passes: not at all where the last step did not reach the limit.
   static constexpr double most_growth = 2.0;
-  static constexpr double most_growth_of_a_failure = 0.9;
+  static constexpr double most_growth_of_a_failure = 1.0;
 
   struct Batch
   {

@@ -10,7 +10,7 @@ namespace cloth
 {
 
 /// The most springs that are corrected in one go.
-inline constexpr int spring_row_size = 64;
+inline constexpr int spring_row_size = 32;
 
 /// Loops over the springs of a row go on to a whole number of the widest vectors, where they change nothing. Arrays of
 /// what they read and write have so much room behind the last node or spring.
