@@ -13,6 +13,7 @@ catkin_add_gtest(test_ros
   test/ros/recorded_model_test.cpp
   test/ros/recorded_topologies_test.cpp
   test/ros/refusal_log_test.cpp
+  test/ros/reused_messages_test.cpp
   test/ros/shading_test.cpp
   test/ros/tick_clock_test.cpp
   test/ros/tick_statistics_test.cpp
@@ -33,7 +34,7 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 )
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
-foreach(name bag clock divergence health lost_master master_clock pin_handles reload replay requests robustness start_up streams tf_pins
+foreach(name bag clock divergence health lost_master master_clock nodelet pin_handles reload replay requests robustness start_up streams tf_pins
     time tuning wind wrenches)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp
@@ -41,7 +42,7 @@ foreach(name bag clock divergence health lost_master master_clock pin_handles re
   target_link_libraries(ros_${name}_test cloth_rostest)
   target_compile_definitions(ros_${name}_test PRIVATE CLOTH_NODE="$<TARGET_FILE:cloth_node>"
     CLOTH_REPLAY="$<TARGET_FILE:cloth_replay>")
-  add_dependencies(ros_${name}_test cloth_node cloth_replay)
+  add_dependencies(ros_${name}_test cloth_node cloth_nodelet cloth_replay)
 endforeach()
 
 roslaunch_add_file_check(launch IGNORE_UNSET_ARGS)
