@@ -16,6 +16,16 @@ if(benchmark_FOUND)
   target_include_directories(linear_solver PRIVATE src/methods)
   target_compile_options(linear_solver PRIVATE $<$<CONFIG:Release>:-O3>)
   target_link_libraries(linear_solver cloth_core benchmark::benchmark)
+
+  add_executable(step_cost EXCLUDE_FROM_ALL
+    bench/plain_sheet.cpp
+    bench/step_cost.cpp
+  )
+  # What is measured against gets all that a compiler can do for this machine.
+  set_source_files_properties(bench/plain_sheet.cpp PROPERTIES
+    COMPILE_OPTIONS "-O3;-march=native;-fno-math-errno;-fno-trapping-math"
+  )
+  target_link_libraries(step_cost cloth_core benchmark::benchmark)
 else()
-  message(STATUS "Google Benchmark (libbenchmark-dev) is missing: bench/linear_solver.cpp is left out")
+  message(STATUS "Google Benchmark (libbenchmark-dev) is missing: linear_solver and step_cost are left out")
 endif()

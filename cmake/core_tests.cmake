@@ -25,6 +25,7 @@ endif()
 
 cloth_add_test(model
   test/model/cloth_model_test.cpp
+  test/model/inverse_root_test.cpp
 )
 cloth_add_test(forces
   test/forces/air_test.cpp
@@ -44,6 +45,7 @@ cloth_add_test(methods
   test/methods/order_test.cpp
   test/methods/spectrum_test.cpp
   test/methods/stability_test.cpp
+  test/methods/threads_test.cpp
 )
 target_link_libraries(test_methods ${agreement_libraries})
 cloth_add_test(simulation
@@ -66,6 +68,9 @@ cloth_add_test(scene
   test/scene/shipped_scenes_test.cpp
   test/scene/start_state_test.cpp
   test/scene/yaml_text_test.cpp
+)
+cloth_add_test(threads
+  test/threads/crew_test.cpp
 )
 cloth_add_test(tools
   test/tools/cloth_run_output_test.cpp

@@ -1,5 +1,7 @@
 #include "cloth_sim/forces/air.h"
 
+#include "cloth_sim/model/wide_vectors.h"
+
 namespace cloth
 {
 
@@ -12,35 +14,88 @@ bool Air::is_coupled(const ClothModel& model) const
   return properties_.wind_coupling > 0.0 && !model.is_chain();
 }
 
+void Air::make_room_for(const ClothModel& model) const
+{
+  if (is_coupled(model))
+  {
+    normals_.resize(model.nodes(), 3);
+    normal_speeds_.resize(model.nodes());
+  }
+}
+
 void Air::add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                      Vectors& forces) const
 {
+  make_room_for(model);
+  add_forces(model, time, positions, velocities, all_nodes(model), forces);
+}
+
+void Air::add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
+                     NodeRange nodes, Vectors& forces) const
+{
   if (properties_.viscous_damping > 0.0)
   {
-    for (int d = 0; d < 3; ++d)
-    {
-      forces.col(d).array() -= properties_.viscous_damping * model.areas.array() * velocities.col(d).array();
-    }
+    in_widest_vectors([&](auto) {
+      const double damping = properties_.viscous_damping;
+      const double* const areas = model.areas.data();
+      for (int d = 0; d < 3; ++d)
+      {
+        const double* const v = velocities.col(d).data();
+        double* const f = forces.col(d).data();
+#pragma GCC ivdep
+        for (int i = nodes.begin; i < nodes.end; ++i)
+        {
+          f[i] -= damping * areas[i] * v[i];
+        }
+      }
+    });
   }
   if (!is_coupled(model))
   {
     return;
   }
-  find_normal_speeds(model, time, positions, velocities);
-  normal_speeds_ *= properties_.wind_coupling * model.areas.array();
-  forces.array() += normals_.array().colwise() * normal_speeds_;
+  find_normal_speeds(model, time, positions, velocities, nodes);
+  normal_speeds_.segment(nodes.begin, nodes.size()) *=
+      properties_.wind_coupling * model.areas.segment(nodes.begin, nodes.size()).array();
+  add_along_normals(nodes, forces);
 }
 
-void Air::find_normal_speeds(const ClothModel& model, double time, const Vectors& positions,
-                             const Vectors& velocities) const
+void Air::find_normal_speeds(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
+                             NodeRange nodes) const
 {
-  node_normals(model, positions, normals_);
+  node_normals(model, positions, nodes, normals_);
   const Eigen::Vector3d wind = wind_at(time);
-  normal_speeds_.setZero(model.nodes());
-  for (int d = 0; d < 3; ++d)
-  {
-    normal_speeds_ += normals_.col(d).array() * (wind[d] - velocities.col(d).array());
-  }
+  in_widest_vectors([&](auto) {
+    const double* const n_x = normals_.col(0).data();
+    const double* const n_y = normals_.col(1).data();
+    const double* const n_z = normals_.col(2).data();
+    const double* const v_x = velocities.col(0).data();
+    const double* const v_y = velocities.col(1).data();
+    const double* const v_z = velocities.col(2).data();
+    double* const speeds = normal_speeds_.data();
+#pragma GCC ivdep
+    for (int i = nodes.begin; i < nodes.end; ++i)
+    {
+      speeds[i] = n_x[i] * (wind[0] - v_x[i]) + n_y[i] * (wind[1] - v_y[i]) + n_z[i] * (wind[2] - v_z[i]);
+    }
+  });
+}
+
+void Air::add_along_normals(NodeRange nodes, Vectors& vectors) const
+{
+  in_widest_vectors([&](auto) {
+    const double* const speeds = normal_speeds_.data();
+    for (int d = 0; d < 3; ++d)
+    {
+      const double* const n = normals_.col(d).data();
+      double* const sums = vectors.col(d).data();
+#pragma GCC ivdep
+      for (int i = nodes.begin; i < nodes.end; ++i)
+      {
+        sums[i] += n[i] * speeds[i];
+      }
+    }
+  });
 }
 
 // n is a unit vector, so that along n the equation is scalar:
@@ -60,11 +115,74 @@ void Air::damp_implicitly(const ClothModel& model, double time, const Vectors& p
   {
     return;
   }
-  find_normal_speeds(model, time, positions, velocities);
+  make_room_for(model);
+  find_normal_speeds(model, time, positions, velocities, all_nodes(model));
   const auto coupled = h * properties_.wind_coupling * model.areas.array();
   const auto inertia = model.masses.array() + h * properties_.viscous_damping * model.areas.array();
   normal_speeds_ *= coupled / (inertia + coupled);
-  velocities.array() += normals_.array().colwise() * normal_speeds_;
+  add_along_normals(all_nodes(model), velocities);
+}
+
+// Likewise: without C_vi the equation gives a, with which the air still has C_vi n . (u - v - h a) to add along n, over
+// m + h C_dis + h C_vi.
+void Air::accelerate_implicitly(const ClothModel& model, double time, const Vectors& positions, double h,
+                                NodeRange nodes, Vectors& forces, Vectors& velocities) const
+{
+  const bool coupled = is_coupled(model);
+  if (coupled)
+  {
+    node_normals(model, positions, nodes, normals_);
+  }
+  const Eigen::Vector3d wind = wind_at(time);
+  in_widest_vectors([this, &model, h, nodes, &forces, &velocities, coupled, wind](auto) {
+    const double damping = properties_.viscous_damping;
+    const double coupling = properties_.wind_coupling;
+    const double* const masses = model.masses.data();
+    const double* const areas = model.areas.data();
+    double* const v_x = velocities.col(0).data();
+    double* const v_y = velocities.col(1).data();
+    double* const v_z = velocities.col(2).data();
+    double* const a_x = forces.col(0).data();
+    double* const a_y = forces.col(1).data();
+    double* const a_z = forces.col(2).data();
+    const auto accelerate = [=](int i, double x, double y, double z) {
+      a_x[i] = x;
+      a_y[i] = y;
+      a_z[i] = z;
+    };
+    const auto add_to_velocity = [=](int i, double x, double y, double z) {
+      v_x[i] += h * x;
+      v_y[i] += h * y;
+      v_z[i] += h * z;
+    };
+#pragma GCC ivdep
+    for (int i = nodes.begin; i < nodes.end; ++i)
+    {
+      const double c = damping * areas[i];
+      const double inverse = 1.0 / (masses[i] + h * c);
+      const double x = inverse * (a_x[i] - c * v_x[i]);
+      const double y = inverse * (a_y[i] - c * v_y[i]);
+      const double z = inverse * (a_z[i] - c * v_z[i]);
+      accelerate(i, x, y, z);
+      add_to_velocity(i, x, y, z);
+    }
+    if (!coupled)
+    {
+      return;
+    }
+    const double* const n_x = normals_.col(0).data();
+    const double* const n_y = normals_.col(1).data();
+    const double* const n_z = normals_.col(2).data();
+#pragma GCC ivdep
+    for (int i = nodes.begin; i < nodes.end; ++i)
+    {
+      const double c = coupling * areas[i];
+      const double speed = n_x[i] * (wind[0] - v_x[i]) + n_y[i] * (wind[1] - v_y[i]) + n_z[i] * (wind[2] - v_z[i]);
+      const double missing = c * speed / (masses[i] + h * (damping * areas[i] + c));
+      accelerate(i, a_x[i] + missing * n_x[i], a_y[i] + missing * n_y[i], a_z[i] + missing * n_z[i]);
+      add_to_velocity(i, missing * n_x[i], missing * n_y[i], missing * n_z[i]);
+    }
+  });
 }
 
 void Air::add_damping_product(const ClothModel& model, const Vectors& normals, const Vectors& u, Vectors& product) const

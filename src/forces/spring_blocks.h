@@ -3,8 +3,9 @@
 // How the loops over springs are laid out.
 
 #include <algorithm>
-#include <cmath>
 
+#include "cloth_sim/model/inverse_root.h"
+#include "cloth_sim/model/node_range.h"
 #include "cloth_sim/model/spring_batch.h"
 #include "cloth_sim/model/vectors.h"
 
@@ -13,10 +14,10 @@ namespace cloth
 
 /// Rows are done in blocks: what is computed for a block stays in the nearest cache, and the loops over it, which
 /// read and write different arrays, vectorise.
-inline constexpr int block_size = 128;
+inline constexpr int block_size = 256;
 
 /// One vector for each spring of a block.
-struct Block
+struct alignas(64) Block
 {
   double x[block_size];
   double y[block_size];
@@ -70,31 +71,81 @@ void for_each_block(const SpringBatch& batch, Work&& work)
   }
 }
 
-/// Adds the block's vectors to the first ends and takes them from the second ends.
-inline void add_to_both_ends(const Block& block, int i, int offset, int n, Vectors& vectors)
+/// Adds the block's vectors s in [from, to), times 1 or -1, to the nodes i + s.
+inline void add_to_nodes(const Block& block, double sign, int i, int from, int to, Vectors& vectors)
 {
   const double* const columns[] = { block.x, block.y, block.z };
   for (int d = 0; d < 3; ++d)
   {
     const double* const added = columns[d];
-    double* const first = vectors.col(d).data() + i;
-    double* const second = first + offset;
-    for (int s = 0; s < n; ++s)
+    double* const sums = vectors.col(d).data() + i;
+#pragma GCC ivdep
+    for (int s = from; s < to; ++s)
     {
-      first[s] += added[s];
+      sums[s] += sign * added[s];
     }
-    for (int s = 0; s < n; ++s)
+  }
+}
+
+/// Adds the block's vectors to the first ends and takes them from the second ends.
+inline void add_to_both_ends(const Block& block, int i, int offset, int n, Vectors& vectors)
+{
+  add_to_nodes(block, 1.0, i, 0, n, vectors);
+  add_to_nodes(block, -1.0, i + offset, 0, n, vectors);
+}
+
+/// Zeroes the vectors of nodes from which no spring of the batch begins: `block` begins with node i.
+inline void clear_gaps(const SpringBatch& batch, int i, int n, Block& block)
+{
+  const int gap = batch.row_stride - batch.cols;
+  if (gap == 0)
+  {
+    return;
+  }
+  const int row = (i - batch.first) / batch.row_stride;
+  for (int begin = batch.first + row * batch.row_stride + batch.cols - i; begin < n; begin += batch.row_stride)
+  {
+    for (int s = std::max(0, begin); s < std::min(n, begin + gap); ++s)
     {
-      second[s] -= added[s];
+      block.x[s] = block.y[s] = block.z[s] = 0.0;
+    }
+  }
+}
+
+/// Adds to both ends of springs what work(batch, i, n, block) puts into the block for n springs, the first of which
+/// joins i and i + offset. Springs of all batches whose first ends are in `first_ends`, and of their ends those in
+/// `nodes`. Rows of springs are not kept apart: what the block gets for the gaps between them is not used.
+///
+/// All batches are done for one block of nodes before the next, while these are in the nearest cache.
+template <typename Work>
+void add_by_blocks(const ClothModel& model, NodeRange first_ends, NodeRange nodes, Vectors& vectors, Work&& work)
+{
+  Block block;
+  for (int begin = first_ends.begin; begin < first_ends.end; begin += block_size)
+  {
+    const int end = std::min(begin + block_size, first_ends.end);
+    for (const SpringBatch& batch : model.springs)
+    {
+      const int beyond_last = batch.first + (batch.rows - 1) * batch.row_stride + batch.cols;
+      const int i = std::max({ begin, batch.first, nodes.begin - batch.offset });
+      const int n = std::min({ end, beyond_last, nodes.end }) - i;
+      if (n <= 0)
+      {
+        continue;
+      }
+      work(batch, i, n, block);
+      clear_gaps(batch, i, n, block);
+      add_to_nodes(block, 1.0, i, std::max(0, nodes.begin - i), n, vectors);
+      add_to_nodes(block, -1.0, i + batch.offset, 0, std::min(n, nodes.end - batch.offset - i), vectors);
     }
   }
 }
 
 /// 1/|l|, or 0 for a spring of no length: it has no direction, and no force.
-inline double inverse_length(const Vector& l)
+template <bool fused>
+double inverse_length(const Vector& l)
 {
-  const double squared = l.dot(l);
-  return squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
+  return inverse_root<fused>(l.dot(l));
 }
 
 /// block[s] = factor * l

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/wide_vectors.h"
 #include "spring_blocks.h"
 
 namespace cloth
@@ -60,7 +61,7 @@ void SpringJacobian::take_directions(const Vectors& positions, double stiffness_
     for (int s = 0; s < n; ++s)
     {
       const Vector l = lengths[s];
-      const double inverse = inverse_length(l);
+      const double inverse = inverse_length<false>(l);
       across[s] = stiffness_factor * batch.stiffness * (1.0 - batch.rest_length * inverse);
       w_x[s] = inverse * l.x;
       w_y[s] = inverse * l.y;
@@ -105,29 +106,31 @@ void SpringJacobian::scale_directions(double along, LinearisedBatch& linearised)
 
 void SpringJacobian::add_product(const Vectors& u, Vectors& product) const
 {
-  Block change;
-  for (const LinearisedBatch& linearised : batches_)
-  {
-    const SpringBatch& batch = linearised.batch;
-    for_each_counted_block(batch, [&](int done, int i, int n) {
-      const double* const across = linearised.across.data() + done;
-      const double* const w_x = linearised.w_x.data() + done;
-      const double* const w_y = linearised.w_y.data() + done;
-      const double* const w_z = linearised.w_z.data() + done;
-      const Differences approaches(u, i, batch.offset);
-      // The compiler cannot see that `change` overlaps none of what is read.
+  in_widest_vectors([&](auto) {
+    Block change;
+    for (const LinearisedBatch& linearised : batches_)
+    {
+      const SpringBatch& batch = linearised.batch;
+      for_each_counted_block(batch, [&](int done, int i, int n) {
+        const double* const across = linearised.across.data() + done;
+        const double* const w_x = linearised.w_x.data() + done;
+        const double* const w_y = linearised.w_y.data() + done;
+        const double* const w_z = linearised.w_z.data() + done;
+        const Differences approaches(u, i, batch.offset);
+        // The compiler cannot see that `change` overlaps none of what is read.
 #pragma GCC ivdep
-      for (int s = 0; s < n; ++s)
-      {
-        const Vector d = approaches[s];
-        const double along = w_x[s] * d.x + w_y[s] * d.y + w_z[s] * d.z;
-        change.x[s] = -(across[s] * d.x + along * w_x[s]);
-        change.y[s] = -(across[s] * d.y + along * w_y[s]);
-        change.z[s] = -(across[s] * d.z + along * w_z[s]);
-      }
-      add_to_both_ends(change, i, batch.offset, n, product);
-    });
-  }
+        for (int s = 0; s < n; ++s)
+        {
+          const Vector d = approaches[s];
+          const double along = w_x[s] * d.x + w_y[s] * d.y + w_z[s] * d.z;
+          change.x[s] = -(across[s] * d.x + along * w_x[s]);
+          change.y[s] = -(across[s] * d.y + along * w_y[s]);
+          change.z[s] = -(across[s] * d.z + along * w_z[s]);
+        }
+        add_to_both_ends(change, i, batch.offset, n, product);
+      });
+    }
+  });
 }
 
 }  // namespace cloth

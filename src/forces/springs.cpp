@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/wide_vectors.h"
 #include "spring_blocks.h"
 
 namespace cloth
@@ -10,40 +11,34 @@ namespace cloth
 namespace
 {
 
-void add_elastic_forces(const SpringBatch& batch, const Vectors& positions, Vectors& forces)
+template <bool fused>
+void find_elastic_forces(const SpringBatch& batch, const Vectors& positions, int i, int n, Block& force)
 {
   const double k = batch.stiffness;
   const double l0 = batch.rest_length;
-  Block force;
-  for_each_block(batch, [&](int i, int n) {
-    const Differences lengths(positions, i, batch.offset);
-    for (int s = 0; s < n; ++s)
-    {
-      const Vector l = lengths[s];
-      put(force, s, k - k * l0 * inverse_length(l), l);
-    }
-    add_to_both_ends(force, i, batch.offset, n, forces);
-  });
+  const Differences lengths(positions, i, batch.offset);
+  for (int s = 0; s < n; ++s)
+  {
+    const Vector l = lengths[s];
+    put(force, s, k - k * l0 * inverse_length<fused>(l), l);
+  }
 }
 
-void add_elastic_and_damping_forces(const SpringBatch& batch, const Vectors& positions, const Vectors& velocities,
-                                    Vectors& forces)
+template <bool fused>
+void find_elastic_and_damping_forces(const SpringBatch& batch, const Vectors& positions, const Vectors& velocities,
+                                     int i, int n, Block& force)
 {
   const double k = batch.stiffness;
   const double c = batch.damping;
   const double l0 = batch.rest_length;
-  Block force;
-  for_each_block(batch, [&](int i, int n) {
-    const Differences lengths(positions, i, batch.offset);
-    const Differences approaches(velocities, i, batch.offset);
-    for (int s = 0; s < n; ++s)
-    {
-      const Vector l = lengths[s];
-      const double inverse = inverse_length(l);
-      put(force, s, k + (c * approaches[s].dot(l) * inverse - k * l0) * inverse, l);
-    }
-    add_to_both_ends(force, i, batch.offset, n, forces);
-  });
+  const Differences lengths(positions, i, batch.offset);
+  const Differences approaches(velocities, i, batch.offset);
+  for (int s = 0; s < n; ++s)
+  {
+    const Vector l = lengths[s];
+    const double inverse = inverse_length<fused>(l);
+    put(force, s, k + (c * approaches[s].dot(l) * inverse - k * l0) * inverse, l);
+  }
 }
 
 /// Adds k [n n^T + a (I - n n^T)] (u_i - u_j), a the part of 1 - l0/|l| that `stiffness_across` lets through.
@@ -51,43 +46,64 @@ template <typename StiffnessAcross>
 void add_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements, Vectors& product,
                  StiffnessAcross&& stiffness_across)
 {
-  Block change;
-  for (const SpringBatch& batch : model.springs)
-  {
-    for_each_block(batch, [&](int i, int n) {
+  in_widest_vectors([&](auto arithmetic) {
+    const auto work = [&](const SpringBatch& batch, int i, int n, Block& change) {
+      const double k = batch.stiffness;
+      const double l0 = batch.rest_length;
       const Differences lengths(positions, i, batch.offset);
       const Differences approaches(displacements, i, batch.offset);
       for (int s = 0; s < n; ++s)
       {
         const Vector l = lengths[s];
         const Vector u = approaches[s];
-        const double inverse = inverse_length(l);
-        const double across = batch.stiffness * stiffness_across(1.0 - batch.rest_length * inverse);
-        const double along = (batch.stiffness - across) * inverse * inverse * l.dot(u);
+        const double inverse = inverse_length<arithmetic.has_fused_multiply_add>(l);
+        const double across = k * stiffness_across(1.0 - l0 * inverse);
+        const double along = (k - across) * inverse * inverse * l.dot(u);
         change.x[s] = -(across * u.x + along * l.x);
         change.y[s] = -(across * u.y + along * l.y);
         change.z[s] = -(across * u.z + along * l.z);
       }
-      add_to_both_ends(change, i, batch.offset, n, product);
-    });
-  }
+    };
+    for_each_stretch(model, all_nodes(model),
+                     [&](NodeRange first_ends) { add_by_blocks(model, first_ends, all_nodes(model), product, work); });
+  });
 }
 
 }  // namespace
 
 void add_spring_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& forces)
 {
+  for_each_stretch(model, all_nodes(model), [&](NodeRange first_ends) {
+    add_spring_forces(model, positions, velocities, first_ends, all_nodes(model), forces);
+  });
+}
+
+void add_spring_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+                       NodeRange first_ends, NodeRange nodes, Vectors& forces)
+{
+  in_widest_vectors([&](auto arithmetic) {
+    constexpr bool fused = arithmetic.has_fused_multiply_add;
+    add_by_blocks(model, first_ends, nodes, forces, [&](const SpringBatch& batch, int i, int n, Block& force) {
+      if (batch.damping == 0.0)
+      {
+        find_elastic_forces<fused>(batch, positions, i, n, force);
+      }
+      else
+      {
+        find_elastic_and_damping_forces<fused>(batch, positions, velocities, i, n, force);
+      }
+    });
+  });
+}
+
+int longest_reach(const ClothModel& model)
+{
+  int reach = 0;
   for (const SpringBatch& batch : model.springs)
   {
-    if (batch.damping == 0.0)
-    {
-      add_elastic_forces(batch, positions, forces);
-    }
-    else
-    {
-      add_elastic_and_damping_forces(batch, positions, velocities, forces);
-    }
+    reach = std::max(reach, batch.offset);
   }
+  return reach;
 }
 
 double elastic_energy(const ClothModel& model, const Vectors& positions)

@@ -68,7 +68,7 @@ public:
     {
       stages_.add_impulses(dynamics, taken, impulses());
     }
-    state = stages_.advanced(dynamics, taken, state);
+    stages_.advance(dynamics, taken, state);
     stages_.keep_last_as_first();
     choose_next_step(taken, error, report.rejected_steps > 0);
     return report;
@@ -95,13 +95,13 @@ private:
     stages_.work_out(dynamics, h, state, first_is_known_);
     report.force_evaluations += stages_.count() - (first_is_known_ ? 1 : 0);
     first_is_known_ = true;
-    Vectors error_in_positions = Vectors::Zero(state.positions.rows(), 3);
-    Vectors error_in_velocities = error_in_positions;
-    stages_.add_weighted(h, error_weights(), error_in_positions, error_in_velocities);
-    dynamics.pins().clear_held(error_in_velocities);
+    error_in_positions_.setZero(state.positions.rows(), 3);
+    error_in_velocities_.setZero(state.positions.rows(), 3);
+    stages_.add_weighted(dynamics, h, error_weights(), error_in_positions_, error_in_velocities_);
+    dynamics.pins().clear_held(error_in_velocities_);
     const double largest =
-        std::max(error_in_positions.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>(),
-                 h * h * error_in_velocities.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
+        std::max(error_in_positions_.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>(),
+                 h * h * error_in_velocities_.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
     return std::sqrt(largest) / tolerance_;
   }
 
@@ -118,6 +118,8 @@ private:
 
   double tolerance_;
   RungeKuttaStages stages_;
+  Vectors error_in_positions_;
+  Vectors error_in_velocities_;
   bool first_is_known_ = false;
   double wanted_ = std::numeric_limits<double>::infinity();
   double last_error_ = 1e-4;

@@ -36,7 +36,7 @@ void ImplicitStage::solve(const Dynamics& dynamics, double time, double s, const
 {
   const Equation equation{ dynamics, time, s, base_positions, base_velocities };
   const Eigen::VectorXd& masses = dynamics.model().masses;
-  dynamics.external_forces(time, velocities);
+  dynamics.external_forces_on_all(time, velocities);
   dynamics.accelerations_of(velocities, velocities);
   velocities = base_velocities + s * velocities;
   find_residual(equation, positions, velocities, report);

@@ -144,7 +144,7 @@ public:
     matrix_.prepare(dynamics, h);
     const double end = state.time + h;
     start_ = state;
-    dynamics.external_forces(end, residual_);
+    dynamics.external_forces_on_all(end, residual_);
     dynamics.accelerations_of(residual_, residual_);
     state.velocities += h * residual_;
     double first_change = 0.0;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "node_loops.h"
+
 namespace cloth
 {
 
@@ -14,38 +16,44 @@ RungeKuttaStages::RungeKuttaStages(Tableau tableau) : tableau_(std::move(tableau
 
 void RungeKuttaStages::work_out(const Dynamics& dynamics, double h, const ClothState& state, bool first_is_known)
 {
+  stage_positions_.resizeLike(state.positions);
   for (size_t i = first_is_known ? 1 : 0; i < slopes_.size(); ++i)
   {
-    stage_ = state;
-    stage_.time = state.time + tableau_.times[i] * h;
-    add_weighted(h, tableau_.stages[i], stage_.positions, stage_.velocities);
-    dynamics.pins().impose(stage_.time, stage_.positions, stage_.velocities);
-    dynamics.forces(stage_.time, stage_.positions, stage_.velocities, slopes_[i].acceleration);
-    dynamics.unheld_accelerations_of(slopes_[i].acceleration, slopes_[i].acceleration);
-    slopes_[i].velocity = stage_.velocities;
+    const double time = state.time + tableau_.times[i] * h;
+    Vectors& stage_velocities = slopes_[i].velocity;
+    stage_velocities.resizeLike(state.velocities);
+    dynamics.for_each_band([&](NodeRange band) {
+      stage_positions_.middleRows(band.begin, band.size()) = state.positions.middleRows(band.begin, band.size());
+      stage_velocities.middleRows(band.begin, band.size()) = state.velocities.middleRows(band.begin, band.size());
+    });
+    add_weighted(dynamics, h, tableau_.stages[i], stage_positions_, stage_velocities);
+    dynamics.pins().impose(time, stage_positions_, stage_velocities);
+    dynamics.unheld_accelerations(time, stage_positions_, stage_velocities, slopes_[i].acceleration);
   }
 }
 
-ClothState RungeKuttaStages::advanced(const Dynamics& dynamics, double h, const ClothState& state) const
+void RungeKuttaStages::advance(const Dynamics& dynamics, double h, ClothState& state) const
 {
-  ClothState end = state;
-  end.time += h;
-  add_weighted(h, tableau_.weights, end.positions, end.velocities);
-  dynamics.pins().impose(end.time, end.positions, end.velocities);
-  return end;
+  state.time += h;
+  add_weighted(dynamics, h, tableau_.weights, state.positions, state.velocities);
+  dynamics.pins().impose(state.time, state.positions, state.velocities);
 }
 
-void RungeKuttaStages::add_weighted(double h, const std::vector<double>& weights, Vectors& positions,
-                                    Vectors& velocities) const
+void RungeKuttaStages::add_weighted(const Dynamics& dynamics, double h, const std::vector<double>& weights,
+                                    Vectors& positions, Vectors& velocities) const
 {
-  for (size_t i = 0; i < weights.size(); ++i)
-  {
-    if (weights[i] != 0.0)
-    {
-      positions += h * weights[i] * slopes_[i].velocity;
-      velocities += h * weights[i] * slopes_[i].acceleration;
-    }
-  }
+  dynamics.for_each_band([&](NodeRange band) {
+    for_each_stretch(dynamics.model(), band, [&](NodeRange nodes) {
+      for (size_t i = 0; i < weights.size(); ++i)
+      {
+        if (weights[i] != 0.0)
+        {
+          add_scaled(nodes, h * weights[i], slopes_[i].velocity, positions);
+          add_scaled(nodes, h * weights[i], slopes_[i].acceleration, velocities);
+        }
+      }
+    });
+  });
 }
 
 void RungeKuttaStages::add_impulses(const Dynamics& dynamics, double h, Vectors& impulses) const
@@ -73,7 +81,7 @@ StepReport RungeKutta::step(const Dynamics& dynamics, double h, ClothState& stat
   {
     stages_.add_impulses(dynamics, h, impulses());
   }
-  state = stages_.advanced(dynamics, h, state);
+  stages_.advance(dynamics, h, state);
   StepReport report;
   report.force_evaluations = stages_.count();
   return report;

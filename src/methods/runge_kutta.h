@@ -25,11 +25,12 @@ public:
   /// stage are already in place.
   void work_out(const Dynamics& dynamics, double h, const ClothState& state, bool first_is_known = false);
 
-  /// x + h sum_i w_i v_i and v + h sum_i w_i a_i, at time t + h.
-  ClothState advanced(const Dynamics& dynamics, double h, const ClothState& state) const;
+  /// Takes the step: x + h sum_i w_i v_i and v + h sum_i w_i a_i, at time t + h.
+  void advance(const Dynamics& dynamics, double h, ClothState& state) const;
 
-  /// h sum_i w_i v_i and h sum_i w_i a_i for other weights than those of the tableau.
-  void add_weighted(double h, const std::vector<double>& weights, Vectors& positions, Vectors& velocities) const;
+  /// Adds h sum_i w_i v_i and h sum_i w_i a_i for any weights.
+  void add_weighted(const Dynamics& dynamics, double h, const std::vector<double>& weights, Vectors& positions,
+                    Vectors& velocities) const;
 
   /// Adds h sum_i w_i f_i, N s, held nodes too.
   void add_impulses(const Dynamics& dynamics, double h, Vectors& impulses) const;
@@ -51,7 +52,7 @@ private:
 
   Tableau tableau_;
   std::vector<Slope> slopes_;
-  ClothState stage_;
+  Vectors stage_positions_;
 };
 
 /// The Runge-Kutta method of a tableau, at the step that it is given.

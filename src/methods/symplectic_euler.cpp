@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "node_loops.h"
 #include "rows.h"
 
 namespace cloth
@@ -16,9 +17,12 @@ public:
   {
     dynamics.forces(state.time, state.positions, state.velocities, accelerations_);
     add_impulses(h, accelerations_);
-    dynamics.accelerations_of(accelerations_, accelerations_);
-    state.velocities += h * accelerations_;
-    state.positions += h * state.velocities;
+    dynamics.for_each_band([&](NodeRange nodes) { dynamics.divide_by_masses(nodes, accelerations_); });
+    dynamics.pins().clear_held(accelerations_);
+    dynamics.for_each_band([&](NodeRange nodes) {
+      add_scaled(nodes, h, accelerations_, state.velocities);
+      add_scaled(nodes, h, state.velocities, state.positions);
+    });
     state.time += h;
     dynamics.pins().impose(state.time, state.positions, state.velocities);
     StepReport report;

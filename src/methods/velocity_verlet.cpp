@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth_sim/model/wide_vectors.h"
 #include "rows.h"
 
 namespace cloth
@@ -12,8 +13,8 @@ namespace
 /// v + h a, the air implicitly, node by node; both keep the order at 2, which damping at the old velocity would not.
 ///
 ///   v_half = v + h/2 a,   x' = x + h v_half
-///   v'     = v_half + h/2 (f(x', v + h a)/m + air(x', v')/m)
-///   a'     = 2/h (v' - v_half), kept for the next step
+///   a'     = f(x', v + h a)/m + air(x', v')/m, kept for the next step
+///   v'     = v_half + h/2 a'
 class VelocityVerlet : public Method
 {
 public:
@@ -33,19 +34,24 @@ public:
       record_first_half(dynamics, h, state);
     }
     const double end = state.time + h;
-    predicted_ = state.velocities + h * accelerations_;
-    state.velocities += 0.5 * h * accelerations_;
-    state.positions += h * state.velocities;
+    dynamics.for_each_band([&](NodeRange nodes) { predict_and_drift(nodes, h, state); });
     dynamics.pins().impose(end, state.positions, predicted_);
-
-    dynamics.forces_without_air(end, state.positions, predicted_, accelerations_);
-    add_impulses(0.5 * h, accelerations_);
-    dynamics.accelerations_of(accelerations_, accelerations_);
-    half_way_ = state.velocities;
-    state.velocities += 0.5 * h * accelerations_;
-    dynamics.air().damp_implicitly(dynamics.model(), end, state.positions, 0.5 * h, state.velocities);
-    accelerations_ = (2.0 / h) * (state.velocities - half_way_);
-
+    const auto accelerate = [&](NodeRange nodes) {
+      dynamics.air().accelerate_implicitly(dynamics.model(), end, state.positions, 0.5 * h, nodes, accelerations_,
+                                           state.velocities);
+    };
+    if (records())
+    {
+      dynamics.forces_without_air(end, state.positions, predicted_, accelerations_);
+      add_impulses(0.5 * h, accelerations_);
+      dynamics.for_each_band(accelerate);
+    }
+    else
+    {
+      dynamics.for_each_band([&](NodeRange band) {
+        dynamics.forces_without_air(end, state.positions, predicted_, band, accelerations_, accelerate);
+      });
+    }
     dynamics.pins().clear_held(accelerations_);
     dynamics.pins().impose_velocities(end, state.velocities);
     state.time = end;
@@ -62,6 +68,27 @@ public:
   }
 
 private:
+  void predict_and_drift(NodeRange nodes, double h, ClothState& state)
+  {
+    in_widest_vectors([this, nodes, h, &state](auto) {
+      for (int d = 0; d < 3; ++d)
+      {
+        const double* const a = accelerations_.col(d).data();
+        double* const x = state.positions.col(d).data();
+        double* const v = state.velocities.col(d).data();
+        double* const predicted = predicted_.col(d).data();
+#pragma GCC ivdep
+        for (int i = nodes.begin; i < nodes.end; ++i)
+        {
+          const double half_way = v[i] + 0.5 * h * a[i];
+          predicted[i] = v[i] + h * a[i];
+          v[i] = half_way;
+          x[i] += h * half_way;
+        }
+      }
+    });
+  }
+
   /// With the springs' forces at the velocities that the kept accelerations come from.
   void record_first_half(const Dynamics& dynamics, double h, const ClothState& state)
   {
@@ -81,7 +108,6 @@ private:
   bool accelerations_known_ = false;
   Vectors accelerations_;
   Vectors predicted_;
-  Vectors half_way_;
   Vectors forces_;
 };
 

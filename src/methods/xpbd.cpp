@@ -56,7 +56,7 @@ public:
 private:
   void predict(const Dynamics& dynamics, double h, ClothState& state)
   {
-    dynamics.external_forces(state.time, accelerations_);
+    dynamics.external_forces_on_all(state.time, accelerations_);
     dynamics.accelerations_of(accelerations_, accelerations_);
     state.velocities += h * accelerations_;
     dynamics.air().damp_implicitly(dynamics.model(), state.time + h, state.positions, h, state.velocities);
@@ -65,7 +65,7 @@ private:
 
   void record_external_forces(const Dynamics& dynamics, double h, const ClothState& state)
   {
-    dynamics.external_forces(state.time, accelerations_);
+    dynamics.external_forces_on_all(state.time, accelerations_);
     dynamics.air().add_forces(dynamics.model(), state.time, state.positions, state.velocities, accelerations_);
     add_impulses(h, accelerations_);
   }

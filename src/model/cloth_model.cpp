@@ -4,6 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cloth_sim/model/inverse_root.h"
+#include "cloth_sim/model/node_range.h"
+#include "cloth_sim/model/wide_vectors.h"
+
 namespace cloth
 {
 namespace
@@ -156,13 +160,15 @@ public:
     }
   }
 
-  void add_to_corners(int first, int cols, int quads, Vectors& sums) const
+  /// Adds each area to two neighbouring nodes, the first of which are `first`, `first` + 1.
+  void add_to_corners(int first, int quads, Vectors& sums) const
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      for (const int corner : { 0, 1, cols, cols + 1 })
+      for (const int corner : { 0, 1 })
       {
         double* const sum = sums.col(axis).data() + first + corner;
+#pragma GCC ivdep
         for (int q = 0; q < quads; ++q)
         {
           sum[q] += areas_[axis][q];
@@ -212,27 +218,45 @@ std::vector<std::array<int, 3>> triangles_of(const ClothModel& model)
 
 void node_normals(const ClothModel& model, const Vectors& positions, Vectors& normals)
 {
-  normals.setZero(model.nodes(), 3);
-  for (int r = 0; r + 1 < model.rows; ++r)
-  {
-    for (int c = 0; c + 1 < model.cols; c += QuadRow::length)
+  normals.resize(model.nodes(), 3);
+  node_normals(model, positions, all_nodes(model), normals);
+}
+
+void node_normals(const ClothModel& model, const Vectors& positions, NodeRange nodes, Vectors& normals)
+{
+  normals.middleRows(nodes.begin, nodes.size()).setZero();
+  in_widest_vectors([&](auto arithmetic) {
+    const int begin = model.row_of(nodes.begin);
+    const int end = model.row_of(nodes.end - 1) + 1;
+    for (int r = std::max(0, begin - 1); r < std::min(end, model.rows - 1); ++r)
     {
-      const int quads = std::min(QuadRow::length, model.cols - 1 - c);
-      const QuadRow areas(positions, model.node(r, c), model.cols, quads);
-      areas.add_to_corners(model.node(r, c), model.cols, quads, normals);
+      for (int c = 0; c + 1 < model.cols; c += QuadRow::length)
+      {
+        const int first = model.node(r, c);
+        const int quads = std::min(QuadRow::length, model.cols - 1 - c);
+        const QuadRow areas(positions, first, model.cols, quads);
+        if (r >= begin)
+        {
+          areas.add_to_corners(first, quads, normals);
+        }
+        if (r + 1 < end)
+        {
+          areas.add_to_corners(first + model.cols, quads, normals);
+        }
+      }
     }
-  }
-  double* const x = normals.col(0).data();
-  double* const y = normals.col(1).data();
-  double* const z = normals.col(2).data();
-  for (int i = 0; i < model.nodes(); ++i)
-  {
-    const double squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
-    const double inverse = squared > 0.0 ? 1.0 / std::sqrt(squared) : 0.0;
-    x[i] *= inverse;
-    y[i] *= inverse;
-    z[i] *= inverse;
-  }
+    double* const x = normals.col(0).data();
+    double* const y = normals.col(1).data();
+    double* const z = normals.col(2).data();
+#pragma GCC ivdep
+    for (int i = nodes.begin; i < nodes.end; ++i)
+    {
+      const double inverse = inverse_root<arithmetic.has_fused_multiply_add>(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+      x[i] *= inverse;
+      y[i] *= inverse;
+      z[i] *= inverse;
+    }
+  });
 }
 
 }  // namespace cloth

@@ -175,6 +175,11 @@ std::vector<Parameter<SceneParams>> make_table()
         "xpbd: factor on the springs' compliance 1/k; 1: stiffness means the same as in every other method, "
         "0: position-based dynamics",
         CLOTH_MEMBER(solver.compliance))),
+    Scene::integer(
+        "solver.threads", 0, 64,
+        "the most threads that share a step, where the sheet is large enough to gain by it; 0: 2, or as many "
+        "as this machine has if fewer; the result is the same to the last bit for any number",
+        CLOTH_MEMBER(solver.threads)),
 
     for_node(live(Scene::number("rate", "Hz", Range{ 1e-3, true, 1000.0 }, "ticks a second, one published mesh each",
                                 CLOTH_MEMBER(node.rate)))),

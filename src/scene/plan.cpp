@@ -187,6 +187,7 @@ SimulationSetup setup_of(const Plan& plan)
   setup.method = plan.method;
   setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance };
   setup.time_step = scene.solver.time_step;
+  setup.threads = scene.solver.threads;
   setup.start = plan.start;
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
   return setup;
@@ -284,6 +285,14 @@ std::string described_step(double given, const Simulation& simulation)
   return step + "1/240 s, since nothing here limits the step of " + name;
 }
 
+std::string described_threads(const Simulation& simulation)
+{
+  const int threads = simulation.dynamics().threads();
+  return counted(static_cast<size_t>(threads), "thread") + " for " +
+         counted(static_cast<size_t>(simulation.model().nodes()), "node") + "; one more is worth its while for every " +
+         std::to_string(Simulation::nodes_a_thread);
+}
+
 }  // namespace
 
 std::vector<std::string> describe(const Plan& plan, const Simulation& simulation)
@@ -293,6 +302,7 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
   {
     lines.push_back(line.part + ": " + (line.kept ? "kept, " : "left out, ") + line.reason);
   }
+  lines.push_back("threads: " + described_threads(simulation));
   lines.push_back("time step: " + described_step(plan.scene.solver.time_step, simulation));
   return lines;
 }

@@ -24,6 +24,12 @@ std::uint64_t steps_for(double way, double time_step)
   return static_cast<std::uint64_t>(std::clamp(std::ceil(way / time_step * (1.0 - 1e-12)), 1.0, most));
 }
 
+int threads_for(const ClothModel& model, int given)
+{
+  const int most = given > 0 ? given : std::min(usable_threads(), Simulation::chosen_threads);
+  return std::clamp(model.nodes() / Simulation::nodes_a_thread, 1, most);
+}
+
 }  // namespace
 
 Simulation::Simulation(SimulationSetup setup)
@@ -42,6 +48,7 @@ Simulation::Simulation(SimulationSetup setup)
     throw std::invalid_argument("the start state must have a position and a velocity for every node");
   }
   method_ = method_row_->make(setup.method_settings);
+  dynamics_.use_threads(threads_for(model(), setup.threads));
   for (const Pin& pin : setup.pins)
   {
     dynamics_.pins().hold(pin);

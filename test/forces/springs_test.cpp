@@ -1,10 +1,13 @@
 #include "cloth_sim/forces/springs.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "cloth_sim/forces/spring_force.h"
+#include "cloth_sim/model/wide_vectors.h"
 #include "support.h"
 
 namespace cloth
@@ -83,6 +86,38 @@ TEST_P(DeformedSheet, BatchesAddTheReferenceForce)
   EXPECT_LT((forces - reference).cwiseAbs().maxCoeff(), 1e-13 * reference.cwiseAbs().maxCoeff());
 }
 
+TEST_P(DeformedSheet, EveryVectorWidthWithFusedMultiplyAddsGivesTheSameBitsAndTheBuildsOwnHardlyOthers)
+{
+  std::vector<Vectors> forces;
+  for (const VectorWidth width : vector_widths())
+  {
+    use_vector_width(width);
+    forces.push_back(Vectors::Zero(model_.nodes(), 3));
+    add_spring_forces(model_, positions_, velocities_, forces.back());
+  }
+  EXPECT_EQ(vector_width(), vector_widths().back());
+  const double largest = forces.front().cwiseAbs().maxCoeff();
+  for (size_t w = 1; w < forces.size(); ++w)
+  {
+    EXPECT_EQ(forces[w], forces[1]);
+    EXPECT_LT((forces[w] - forces[0]).cwiseAbs().maxCoeff(), 1e-13 * largest);
+  }
+}
+
+TEST_P(DeformedSheet, ForcesOfABandAreThoseOfTheWholeToTheLastBit)
+{
+  const Vectors start = Vectors::Constant(model_.nodes(), 3, 0.1);
+  Vectors whole = start;
+  add_spring_forces(model_, positions_, velocities_, whole);
+  Vectors bands = start;
+  for_each_stretch(model_, all_nodes(model_), [&](NodeRange band) {
+    for_each_stretch(model_, { std::max(0, band.begin - longest_reach(model_)), band.end }, [&](NodeRange first_ends) {
+      add_spring_forces(model_, positions_, velocities_, first_ends, band, bands);
+    });
+  });
+  EXPECT_EQ(bands, whole);
+}
+
 TEST_P(DeformedSheet, ForcesAddToWhatIsThere)
 {
   Vectors twice = Vectors::Zero(model_.nodes(), 3);
@@ -126,7 +161,7 @@ TEST_P(DeformedSheet, DampingTakesEnergyOut)
 
 INSTANTIATE_TEST_SUITE_P(Sizes, DeformedSheet,
                          testing::Values(std::pair(5, 6), std::pair(2, 2), std::pair(2, 1), std::pair(1, 7),
-                                         std::pair(3, 140)));
+                                         std::pair(3, 140), std::pair(30, 20), std::pair(700, 1)));
 
 /// Central differences of the elastic force along `direction`, with the sign of a stiffness.
 Vectors change_of_force(const ClothModel& model, const Vectors& positions, const Vectors& direction)

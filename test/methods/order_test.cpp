@@ -45,7 +45,7 @@ public:
     return amplitudes_ * (turns() * std::cos(angle(time)));
   }
 
-  void external_forces(double time, Vectors& external) const override
+  void external_forces(double time, NodeRange nodes, Vectors& external) const override
   {
     const Vectors x = positions_at(time);
     const Vectors v = velocities_at(time);
@@ -53,7 +53,8 @@ public:
     add_spring_forces(model(), x, v, acting);
     air().add_forces(model(), time, x, v, acting);
     const Vectors accelerations = amplitudes_ * (-turns() * turns() * std::sin(angle(time)));
-    external = (accelerations.array().colwise() * model().masses.array()).matrix() - acting;
+    const Vectors all = (accelerations.array().colwise() * model().masses.array()).matrix() - acting;
+    external.middleRows(nodes.begin, nodes.size()) = all.middleRows(nodes.begin, nodes.size());
   }
 
 private:

@@ -1,11 +1,13 @@
 #include "cloth_sim/simulation/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "cloth_sim/forces/springs.h"
+#include "cloth_sim/threads/crew.h"
 #include "support.h"
 
 namespace cloth
@@ -37,6 +39,24 @@ TEST(Simulation, TakesTheFewestEqualStepsToATime)
   EXPECT_EQ(simulation.counters().steps, 21u) << "a rounding error must not make a step of its own";
   simulation.advance_to(0.0205);
   EXPECT_EQ(simulation.counters().steps, 21u);
+}
+
+TEST(Simulation, HasAThreadForEvery2048NodesAndNotMoreThanTheSceneAllows)
+{
+  const auto threads_of = [](int rows, int given) {
+    SceneParams scene = small_hanging_sheet();
+    scene.sheet.rows = rows;
+    scene.sheet.cols = 64;
+    scene.solver.threads = given;
+    return simulation_of(scene).dynamics().threads();
+  };
+  EXPECT_EQ(threads_of(63, 8), 1);
+  EXPECT_EQ(threads_of(64, 8), 2);
+  EXPECT_EQ(threads_of(96, 8), 3);
+  EXPECT_EQ(threads_of(96, 2), 2);
+  EXPECT_EQ(threads_of(96, 1), 1);
+  EXPECT_EQ(threads_of(96, 0), std::min(2, usable_threads()));
+  EXPECT_EQ(threads_of(32, 0), 1);
 }
 
 TEST(Simulation, TakesNineTenthsOfTheLimitWhereNoStepIsGiven)

@@ -4,6 +4,7 @@
 
 #include "cloth_sim/forces/gusts.h"
 #include "cloth_sim/model/cloth_model.h"
+#include "cloth_sim/model/node_range.h"
 
 namespace cloth
 {
@@ -51,11 +52,25 @@ public:
   /// Adds the force above, in N, to every node.
   void add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                   Vectors& forces) const;
+  /// The same for the nodes of some whole rows. There must be room for the model.
+  void add_forces(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
+                  NodeRange nodes, Vectors& forces) const;
 
   /// Solves (m + h C_dis) v + h C_vi (n . (v - u)) n = m v_given for every node, in closed form: the air of an
   /// implicit step of length h that ends at `time` (s), positions held. Velocities in m/s, h in s.
   void damp_implicitly(const ClothModel& model, double time, const Vectors& positions, double h,
                        Vectors& velocities) const;
+
+  /// Turns the other forces on the nodes of some whole rows, in N, into their accelerations over a time h (s), with the
+  /// air at its end, at `time` (s), positions held, and adds h a to the velocities. There must be room for the model.
+  /// In closed form, v being the velocity at the beginning:
+  ///
+  ///   (m + h C_dis) a + h C_vi (n . a) n = f - C_dis v + C_vi (n . (u - v)) n
+  void accelerate_implicitly(const ClothModel& model, double time, const Vectors& positions, double h, NodeRange nodes,
+                             Vectors& forces, Vectors& velocities) const;
+
+  /// Makes room for what is worked out for each node.
+  void make_room_for(const ClothModel& model) const;
 
   /// Adds -df/dv u = C_dis u + C_vi (n . u) n to every node, in N for `u` in m/s; `normals` as `node_normals` has them
   /// where `is_coupled`, else not looked at. The derivative by the positions, through the normals, is left out: see
@@ -71,9 +86,11 @@ public:
   double damping_rate(const ClothModel& model) const;
 
 private:
-  /// The normals, and n . (u - v) of every node.
-  void find_normal_speeds(const ClothModel& model, double time, const Vectors& positions,
-                          const Vectors& velocities) const;
+  /// The normals, and n . (u - v), of `nodes`.
+  void find_normal_speeds(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
+                          NodeRange nodes) const;
+  /// Adds `normal_speeds_` along the normals of `nodes`.
+  void add_along_normals(NodeRange nodes, Vectors& vectors) const;
 
   AirProperties properties_;
   Gusts gusts_;

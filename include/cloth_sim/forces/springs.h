@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cloth_sim/model/cloth_model.h"
+#include "cloth_sim/model/node_range.h"
 
 namespace cloth
 {
@@ -8,6 +9,16 @@ namespace cloth
 /// Adds the elastic and the internal damping force of every spring to both of its ends: `spring_force`, batch by
 /// batch. All arguments have one row a node; positions in m, velocities in m/s, forces in N.
 void add_spring_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& forces);
+
+/// The same for the springs whose first ends are in `first_ends`, and of their ends for those in `nodes` alone. A node
+/// has all its forces when stretch after stretch (`for_each_stretch`) has been done from the one in which the node lies
+/// `longest_reach` before to its own; the forces have then been added in the order in which the whole sheet adds them,
+/// and are the same to the last bit.
+void add_spring_forces(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+                       NodeRange first_ends, NodeRange nodes, Vectors& forces);
+
+/// The most nodes that a spring's second end is behind its first.
+int longest_reach(const ClothModel& model);
 
 /// The elastic energy, sum of k (|l| - l0)^2 / 2, in J. The elastic force is minus its gradient.
 double elastic_energy(const ClothModel& model, const Vectors& positions);

@@ -41,6 +41,7 @@ struct SolverParams
   double tolerance = 1e-3;  ///< m
   int iterations = 10;
   double compliance = 1.0;
+  int threads = 0;  ///< 0: chosen
 };
 
 /// How pins follow the tf frames that carry them.

@@ -31,6 +31,7 @@ struct SimulationSetup
   MethodSettings method_settings;
   double time_step = 0.0;  ///< s; 0: 0.9 of the stability limit as it is, or 1/240 where there is none; of an adaptive
                            ///< method the largest step, 0: none
+  int threads = 1;         ///< the most that share a step; 0: those of the machine, `chosen_threads` at most
   ClothState start;
 };
 
@@ -49,6 +50,11 @@ public:
   static constexpr double limit_share = 0.9;
   /// The shortest step, s: a limit below it counts as none that can be kept.
   static constexpr double shortest_step = 1e-9;
+
+  /// Fewer nodes than this are not worth a thread: a step of theirs takes some 15 microseconds.
+  static constexpr int nodes_a_thread = 2048;
+  /// Where it is not said how many: what was measured, and what a workstation can spare.
+  static constexpr int chosen_threads = 2;
 
   /// What was done since the start.
   struct Counters
