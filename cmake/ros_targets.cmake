@@ -3,6 +3,7 @@ include_directories(SYSTEM ${catkin_INCLUDE_DIRS})
 # The ROS layer on top of the core: everything that the node does, as a library that tests can link, and a thin main.
 add_library(cloth_ros STATIC
   src/ros/answering_services.cpp
+  src/ros/bag_files.cpp
   src/ros/clock_publisher.cpp
   src/ros/cloth_node.cpp
   src/ros/cloth_replay.cpp
@@ -24,6 +25,7 @@ add_library(cloth_ros STATIC
   src/ros/pin_requests.cpp
   src/ros/pin_wrenches.cpp
   src/ros/recorded_model.cpp
+  src/ros/recorded_start.cpp
   src/ros/recorded_topologies.cpp
   src/ros/refusal_log.cpp
   src/ros/replayed_cloth.cpp

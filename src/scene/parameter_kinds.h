@@ -263,7 +263,10 @@ struct RowsOf
       }
       access(target) = value.Scalar();
     };
-    parameter.get = [=](const Target& target) { return access(target); };
+    parameter.get = [=](const Target& target) {
+      const std::string& text = access(target);
+      return text.empty() ? std::string("\"\"") : text;
+    };
     return parameter;
   }
 

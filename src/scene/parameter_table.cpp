@@ -16,6 +16,11 @@ bool is_frame(const std::string& text)
   return !text.empty() && text[0] != '/';
 }
 
+bool is_absolute_path_or_empty(const std::string& text)
+{
+  return text.empty() || text[0] == '/';
+}
+
 bool is_ros_name(const std::string& text)
 {
   const auto of_a_name = [](unsigned char character) { return std::isalnum(character) || character == '_'; };
@@ -192,6 +197,14 @@ std::vector<Parameter<SceneParams>> make_table()
                            CLOTH_MEMBER(node.clock_mode))),
     for_node(Scene::choice("start_paused", { "false", "true" }, "whether time stands still at the start",
                            CLOTH_MEMBER(node.start_paused))),
+    for_node(
+        Scene::text("start_bag", is_absolute_path_or_empty, "the absolute path of a file; \"\": none",
+                    "a recording of ~state and ~topology of one cloth, from a state of which the cloth goes on; of "
+                    "the start that the scene describes nothing is used then",
+                    CLOTH_MEMBER(node.start_bag))),
+    for_node(Scene::number("start_time", "s", Range{ 0.0, true, 1e9 },
+                           "from the beginning of the recording to that state, the first from then on",
+                           CLOTH_MEMBER(node.start_time))),
     for_node(Scene::number("tf_pins.top_speed", "m/s", positive,
                            "the fastest, in simulated time, that a pin follows the tf frame that carries it; where the "
                            "frame jumps it catches up at this speed",
