@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <csignal>
+#include <fstream>
 #include <set>
 
 #include <boost/make_shared.hpp>
@@ -64,7 +65,7 @@ struct Recorded
   std::vector<double> times;
 };
 
-/// The scene's cloth, with a node of its lower edge held by topic, recorded for a second.
+/// The scene's cloth, with a node of its lower edge held by topic.
 void record(const std::string& file)
 {
   NodeProcess node(scene);
@@ -78,8 +79,13 @@ void record(const std::string& file)
   pins.publish(hand);
   Listener<ClothState> states(state_topic);
   ASSERT_TRUE(states.wait_for_one([](const ClothState& state) { return is_pinned(state, 7 * 6 + 2); }));
-  ChildProcess recorder(
-      { "rosbag", "record", "--quiet", "--lz4", "--limit=50", "--output-name=" + file, state_topic, topology_topic });
+  ChildProcess recorder({ "rosbag", "record", "--quiet", "--lz4", "--chunksize=1", "--output-name=" + file, state_topic,
+                          topology_topic });
+  const auto recorded_enough = [&] {
+    return std::ifstream(file + ".active", std::ios::ate | std::ios::binary).tellg() > 80000;
+  };
+  ASSERT_TRUE(wait_until(recorded_enough)) << recorder.output();
+  recorder.signal(SIGINT);
   ASSERT_TRUE(wait_until([&] { return recorder.exit_status().has_value(); })) << recorder.output();
   node.signal(SIGINT);
   ASSERT_TRUE(node.wait_for_end());
