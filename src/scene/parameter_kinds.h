@@ -263,10 +263,7 @@ struct RowsOf
       }
       access(target) = value.Scalar();
     };
-    parameter.get = [=](const Target& target) {
-      const std::string& text = access(target);
-      return text.empty() ? std::string("\"\"") : text;
-    };
+    parameter.get = [=](const Target& target) { return access(target); };
     return parameter;
   }
 

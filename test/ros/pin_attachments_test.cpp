@@ -28,6 +28,7 @@ class PinsOnAFrame : public testing::Test
 protected:
   PinsOnAFrame()
   {
+    ros::Time::init();  // there is no node
     SceneParams scene;
     scene.sheet.rows = scene.sheet.cols = 5;
     scene.pins.clear();

@@ -54,7 +54,7 @@ rate: 30
 real_time_factor: 1.0
 clock_mode: follow
 start_paused: false
-start_bag: ""
+start_bag: none
 start_time: 0
 tf_pins: {top_speed: 5.0, max_age: 1.0}
 wind_timeout: 0
