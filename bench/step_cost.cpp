@@ -59,7 +59,8 @@ void step(benchmark::State& state, const Case& measured)
 {
   SheetProperties sheet = measured.sheet;
   sheet.rows = sheet.cols = measured.nodes_a_side;
-  Dynamics dynamics(make_sheet(sheet), { 0.0, 0.0, -9.81 }, { 0.3, measured.wind_coupling, Eigen::Vector3d::Zero(), {} });
+  Dynamics dynamics(make_sheet(sheet), { 0.0, 0.0, -9.81 },
+                    { 0.3, measured.wind_coupling, Eigen::Vector3d::Zero(), {} });
   const ClothModel& model = dynamics.model();
   ClothState cloth = rippled(model);
   const std::vector<int> corners{ 0, model.cols - 1 };
@@ -122,6 +123,23 @@ void add(const Case& measured)
   })->UseRealTime();
 }
 
+void add_width(VectorWidth width, int n)
+{
+  Case of_width{ std::string("width:") + name_of(width), n };
+  of_width.width = width;
+  add(of_width);
+}
+
+void add_threads(int n)
+{
+  for (int threads = 2; threads <= usable_threads(); threads *= 2)
+  {
+    Case shared{ "threads:" + std::to_string(threads), n };
+    shared.threads = threads;
+    add(shared);
+  }
+}
+
 void add_all_of_a_size(int n)
 {
   benchmark::RegisterBenchmark(("plain/" + std::to_string(n)).c_str(), [n](benchmark::State& state) {
@@ -129,9 +147,7 @@ void add_all_of_a_size(int n)
   })->UseRealTime();
   for (const VectorWidth width : vector_widths())
   {
-    Case of_width{ std::string("width:") + name_of(width), n };
-    of_width.width = width;
-    add(of_width);
+    add_width(width, n);
   }
   Case undamped{ "springs:undamped", n };
   undamped.sheet.structural.damping = undamped.sheet.shear.damping = 0.0;
@@ -151,12 +167,7 @@ void add_all_of_a_size(int n)
     of_method.method = method;
     add(of_method);
   }
-  for (int threads = 2; threads <= usable_threads(); threads *= 2)
-  {
-    Case shared{ "threads:" + std::to_string(threads), n };
-    shared.threads = threads;
-    add(shared);
-  }
+  add_threads(n);
 }
 
 }  // namespace
@@ -172,6 +183,11 @@ int main(int argc, char** argv)
   for (const int nodes_a_side : { 16, 32, 64, 128, 256, 512 })
   {
     cloth::add_all_of_a_size(nodes_a_side);
+  }
+  for (const int nodes_a_side : { 40, 48, 56, 96 })  // where a second thread begins to gain
+  {
+    cloth::add_width(cloth::vector_widths().back(), nodes_a_side);
+    cloth::add_threads(nodes_a_side);
   }
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -40,6 +40,7 @@ cloth_add_test(constraints
 )
 cloth_add_test(methods
   ${agreement_test}
+  test/methods/allocations_test.cpp
   test/methods/energy_drift_test.cpp
   test/methods/exact_motion_test.cpp
   test/methods/order_test.cpp

@@ -39,10 +39,10 @@ bool is_under_way(const Carry& carry, double time)
   return duration > 0.0 && time >= carry.start && time <= carry.end + 1e-6 * duration;
 }
 
-/// Where a carried pin was held, as seen from its pivot: one row for each of its nodes, turned as at `time`.
-Vectors arms_of(const Pin& pin, double time)
+/// Where node i of a carried pin was held, as seen from its pivot, turned.
+Eigen::RowVector3d arm_of(const Pin& pin, Eigen::Index i, const Eigen::Matrix3d& rotation)
 {
-  return (pin.held.rowwise() - pin.carry.pivot.transpose()) * pin.carry.rotation(time).transpose();
+  return (pin.held.row(i) - pin.carry.pivot.transpose()) * rotation.transpose();
 }
 
 }  // namespace
@@ -192,14 +192,20 @@ void Pins::impose(double time, Vectors& positions, Vectors& velocities) const
   for (const Pin& pin : pins_)
   {
     const Eigen::Vector3d displacement = pin.oscillation.displacement(time) + pin.carry.displacement(time);
-    if (pin.carry.is_straight())
+    const bool is_straight = pin.carry.is_straight();
+    const Eigen::RowVector3d pivot = (pin.carry.pivot + displacement).transpose();
+    const Eigen::Matrix3d rotation = pin.carry.rotation(time);
+    for (Eigen::Index i = 0; i < pin.held.rows(); ++i)
     {
-      positions(pin.nodes, Eigen::all) = pin.held.rowwise() + displacement.transpose();
-    }
-    else
-    {
-      const Eigen::RowVector3d pivot = (pin.carry.pivot + displacement).transpose();
-      positions(pin.nodes, Eigen::all) = arms_of(pin, time).rowwise() + pivot;
+      auto position = positions.row(pin.nodes[static_cast<size_t>(i)]);
+      if (is_straight)
+      {
+        position = pin.held.row(i) + displacement.transpose();
+      }
+      else
+      {
+        position = pivot + arm_of(pin, i, rotation);
+      }
     }
   }
   impose_velocities(time, velocities);
@@ -210,15 +216,17 @@ void Pins::impose_velocities(double time, Vectors& velocities) const
   for (const Pin& pin : pins_)
   {
     const Eigen::RowVector3d velocity = (pin.oscillation.velocity(time) + pin.carry.velocity(time)).transpose();
-    const Eigen::Vector3d angular_velocity = pin.carry.angular_velocity(time);
-    if (angular_velocity.isZero(0.0))
+    const Eigen::RowVector3d angular_velocity = pin.carry.angular_velocity(time).transpose();
+    const bool turns = !angular_velocity.isZero(0.0);
+    const Eigen::Matrix3d rotation = pin.carry.rotation(time);
+    for (Eigen::Index i = 0; i < pin.held.rows(); ++i)
     {
-      velocities(pin.nodes, Eigen::all).rowwise() = velocity;
-    }
-    else
-    {
-      velocities(pin.nodes, Eigen::all) =
-          (-arms_of(pin, time).rowwise().cross(angular_velocity.transpose())).rowwise() + velocity;
+      auto node_velocity = velocities.row(pin.nodes[static_cast<size_t>(i)]);
+      node_velocity = velocity;
+      if (turns)
+      {
+        node_velocity += angular_velocity.cross(arm_of(pin, i, rotation));
+      }
     }
   }
 }

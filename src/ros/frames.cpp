@@ -68,7 +68,9 @@ std::optional<Frames::Use> Frames::last_use() const
 void Frames::note_use(const std::string& source, const ros::Time& stamp) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  last_use_ = Use{ source, stamp.isZero() ? std::nullopt : std::make_optional((ros::Time::now() - stamp).toSec()) };
+  // Numbers: a ros::Duration throws where stamps are more than 68 years apart.
+  const auto age = [&] { return ros::Time::now().toSec() - stamp.toSec(); };
+  last_use_ = Use{ source, stamp.isZero() ? std::nullopt : std::make_optional(age()) };
 }
 
 }  // namespace cloth

@@ -126,7 +126,7 @@ std::optional<Eigen::Isometry3d> PinAttachments::find(const std::string& name, c
     return std::nullopt;
   }
   const bool has_age = !latest->stamp.isZero() && !now.isZero();
-  if (params_.max_age > 0.0 && has_age && std::abs((now - latest->stamp).toSec()) > params_.max_age)
+  if (params_.max_age > 0.0 && has_age && std::abs(now.toSec() - latest->stamp.toSec()) > params_.max_age)
   {
     warn("the pin '" + name + "' holds its place: the latest transform of frame '" + attachment.frame +
          "' is farther from now than tf_pins.max_age, " + format_number(params_.max_age) + " s");

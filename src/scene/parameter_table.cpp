@@ -175,13 +175,15 @@ std::vector<Parameter<SceneParams>> make_table()
                       "how the air's velocity relative to the sheet acts along its normals; 0: no normals are computed",
                       CLOTH_MEMBER(air.wind_coupling))),
     live(Scene::vector("air.wind", "m/s", any, "velocity of the air: the way it moves", CLOTH_MEMBER(air.wind))),
-    Scene::number("air.gusts.strength", "m/s", not_negative,
-                  "root mean square of each component of smooth gusts, which are added to the wind, also to that of "
-                  "~wind; 0: none",
-                  CLOTH_MEMBER(air.gusts.strength)),
-    Scene::number("air.gusts.time_scale", "s", positive, "how long a gust lasts", CLOTH_MEMBER(air.gusts.time_scale)),
-    Scene::integer("air.gusts.seed", 0, 2147483647, "the same seed is the same gusts at the same simulated time",
-                   CLOTH_MEMBER(air.gusts.seed)),
+    live(Scene::number(
+        "air.gusts.strength", "m/s", not_negative,
+        "root mean square of each component of smooth gusts, which are added to the wind, also to that of "
+        "~wind; 0: none",
+        CLOTH_MEMBER(air.gusts.strength))),
+    live(Scene::number("air.gusts.time_scale", "s", Range{ 1e-3, true }, "how long a gust lasts",
+                       CLOTH_MEMBER(air.gusts.time_scale))),
+    live(Scene::integer("air.gusts.seed", 0, 2147483647, "the same seed is the same gusts at the same simulated time",
+                        CLOTH_MEMBER(air.gusts.seed))),
 
     live(Scene::choice("solver.method", method_words(), "time-stepping method; auto is velocity_verlet",
                        CLOTH_MEMBER(solver.method))),

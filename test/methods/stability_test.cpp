@@ -187,7 +187,7 @@ Dynamics flat_sheet(double damping_ratio, double viscous_damping)
   {
     kind->damping = damping_ratio * kind->stiffness;
   }
-  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), { viscous_damping, 0.0, Eigen::Vector3d::Zero() });
+  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), { viscous_damping, 0.0, Eigen::Vector3d::Zero(), {} });
   dynamics.pins().hold(still_pin("corner", { 0 }, dynamics.model().rest_positions));
   return dynamics;
 }
@@ -245,7 +245,7 @@ TEST_P(StabilityLimit, HoldsForAStretchedSheetInWind)
   // flex springs the evenly stretched sheet is in equilibrium.
   SheetProperties sheet = small_sheet(5, 5);
   sheet.flex = { 0.0, 0.0 };
-  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), { 0.5, 2.0, { 0.0, 0.0, 0.0 } });
+  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), { 0.5, 2.0, { 0.0, 0.0, 0.0 }, {} });
   const Vectors stretched = 1.2 * dynamics.model().rest_positions;
   std::vector<int> border;
   for (int i = 0; i < dynamics.model().nodes(); ++i)

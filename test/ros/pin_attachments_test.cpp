@@ -28,7 +28,7 @@ class PinsOnAFrame : public testing::Test
 protected:
   PinsOnAFrame()
   {
-    ros::Time::init();  // there is no node
+    ros::Time::init();  // frames ask how old a transform is
     SceneParams scene;
     scene.sheet.rows = scene.sheet.cols = 5;
     scene.pins.clear();

@@ -234,6 +234,20 @@ TEST_F(TuningTest, PinsAndTheWindOfAMessageCarryOn)
   EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return state.positions[3 * 60 + 1] < -0.1F; }));
 }
 
+TEST_F(TuningTest, GustsBeginInStillAir)
+{
+  NodeProcess node(small_sheet({ "_air/wind_coupling:=5" }));
+  ASSERT_TRUE(state_.wait_for(5));
+  Change change;
+  ASSERT_TRUE(change.set("air_gusts_strength", 20.0).set("air_gusts_time_scale", 0.0).set("air_gusts_seed", 7).ask());
+  EXPECT_EQ(change.answered<double>("air_gusts_strength"), 20.0);
+  EXPECT_EQ(change.answered<double>("air_gusts_time_scale"), 0.001);
+  EXPECT_EQ(change.answered<int>("air_gusts_seed"), 7);
+  ASSERT_TRUE(Change().set("air_gusts_time_scale", 1.0).ask());
+  EXPECT_TRUE(
+      state_.wait_for_one([](const ClothState& state) { return std::abs(state.positions[3 * 60 + 1]) > 0.2F; }));
+}
+
 TEST_F(TuningTest, SpringsOfNoStiffnessLeaveTheTopology)
 {
   Listener<cloth_sim::ClothTopology> topology("/cloth_node/topology");

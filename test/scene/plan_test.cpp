@@ -190,6 +190,21 @@ TEST(LivePlan, KeepsTheStartAndTakesTheRest)
   }
 }
 
+TEST(LivePlan, ChangedGustsAreThoseThatTheirSceneWouldHaveHadAtThatTime)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}, air: {wind: [0, 1, 0], gusts: {strength: 1}}}");
+  const Plan before = make_plan(scene);
+  Simulation running = build_simulation(before);
+  running.advance_to(0.3);
+  scene.air.gusts = { 2.0, 0.5, 7 };
+  const Simulation simulation = carry_on(live_plan(before, scene), running);
+  const Gusts gusts(scene.air.gusts);
+  for (const double time : { 0.3, 1.7 })
+  {
+    EXPECT_EQ(simulation.dynamics().air().wind_at(time), scene.air.wind + gusts.at(time));
+  }
+}
+
 TEST(LivePlan, RefusesWhatDoesNotFitTogether)
 {
   SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}}");

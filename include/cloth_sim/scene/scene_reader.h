@@ -20,8 +20,8 @@ public:
 };
 
 /// Reads and checks a scene tree; keys that are not there keep their defaults. An unknown key, a wrong type, and a
-/// value that is out of range or not finite are faults; text that reads as the due number or list is taken as it. Throws
-/// SceneError with all faults.
+/// value that is out of range or not finite are faults; text that reads as the due number or list is taken as it.
+/// Throws SceneError with all faults.
 SceneParams read_scene(const YAML::Node& tree);
 
 /// The tree of a YAML file. Throws SceneError with the file's name where it cannot be read or is no YAML.
