@@ -16,8 +16,8 @@ namespace
 
 using cloth_sim::ClothState;
 
-/// Gets the messages of a topic as they come, and keeps but the second: a first one may be latched from a time when
-/// nobody listened.
+/// Gets the messages of a topic as they come, and keeps one; not one of the first, which may be latched from a time
+/// when nobody listened.
 template <typename Message>
 class Holder
 {
@@ -48,11 +48,12 @@ public:
   }
 
 private:
+  static constexpr int passed_over = 5;
+
   void take(const Pointer& message)
   {
-    if (!began_)
+    if (++taken_ <= passed_over)
     {
-      began_ = true;
       return;
     }
     if (held_ == nullptr)
@@ -66,7 +67,7 @@ private:
   }
 
   ros::NodeHandle node_;
-  bool began_ = false;
+  int taken_ = 0;
   Pointer held_;
   Message copy_;
   int later_ = 0;
