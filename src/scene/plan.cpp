@@ -228,6 +228,12 @@ Plan make_plan(const SceneParams& scene)
   return plan_with(scene, model, scene_start(scene, model));
 }
 
+Plan make_plan(const SceneParams& scene, const SceneStart& start)
+{
+  require_fitting_compliance(scene.solver);
+  return plan_with(scene, make_sheet(scene.sheet), start);
+}
+
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);

@@ -54,6 +54,8 @@ rate: 30
 real_time_factor: 1.0
 clock_mode: follow
 start_paused: false
+start_bag: none
+start_time: 0
 tf_pins: {top_speed: 5.0, max_age: 1.0}
 wind_timeout: 0
 )";
@@ -133,6 +135,8 @@ rate: 7.1
 real_time_factor: 7.2
 clock_mode: follow
 start_paused: false
+start_bag: /tmp/a cloth.bag
+start_time: 7.6
 tf_pins: {top_speed: 7.3, max_age: 7.4}
 wind_timeout: 7.5
 display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
@@ -175,6 +179,8 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.solver.threads, 8);
   EXPECT_EQ(scene.node.rate, 7.1);
   EXPECT_EQ(scene.node.real_time_factor, 7.2);
+  EXPECT_EQ(scene.node.start_bag, "/tmp/a cloth.bag");
+  EXPECT_EQ(scene.node.start_time, 7.6);
   EXPECT_EQ(scene.node.tf_pins.top_speed, 7.3);
   EXPECT_EQ(scene.node.tf_pins.max_age, 7.4);
   EXPECT_EQ(scene.node.wind_timeout, 7.5);

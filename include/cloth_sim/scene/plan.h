@@ -5,6 +5,7 @@
 
 #include "cloth_sim/methods/method.h"
 #include "cloth_sim/scene/scene_params.h"
+#include "cloth_sim/scene/scene_start.h"
 #include "cloth_sim/simulation/simulation.h"
 
 namespace cloth
@@ -30,6 +31,9 @@ struct Plan
 /// Decides what the scene needs. Throws SceneError where its parts do not fit together (pins outside the sheet, a
 /// node in two pins, a start that the scene does not have). A settled start is worked out here.
 Plan make_plan(const SceneParams& scene);
+
+/// The same of a sheet that starts as `start` says, not as the scene does; pins hold their nodes where that has them.
+Plan make_plan(const SceneParams& scene, const SceneStart& start);
 
 /// The simulation of a plan, at time 0.
 Simulation build_simulation(const Plan& plan);
