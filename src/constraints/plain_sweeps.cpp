@@ -13,8 +13,8 @@ namespace
 /// passed over. Nodes are grouped in blocks of the same size.
 constexpr int block_size = 32;
 
-/// Passes over limited springs. A block of springs that was found within the limit is looked at again
-/// only after one of its nodes has moved.
+/// Passes over limited springs. A block of springs that was found within the limit is looked at again only after one of
+/// its nodes has moved.
 class Sweeps
 {
 public:

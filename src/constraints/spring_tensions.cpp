@@ -12,64 +12,6 @@ namespace cloth
 namespace
 {
 
-/// A block of springs, laid out for a loop over them.
-struct Stretch
-{
-  /// Spring `first` of a batch, whose tensions are given, and the n - 1 after it in its row; it begins at `node`.
-  Stretch(const double* inverse_masses, Vectors& positions, int node, int offset,
-          const std::array<double*, 3>& tensions, int first, int springs)
-    : w_i(inverse_masses + node), w_j(w_i + offset), n(springs)
-  {
-    for (int d = 0; d < 3; ++d)
-    {
-      i[d] = positions.col(d).data() + node;
-      j[d] = i[d] + offset;
-      p[d] = tensions[d] + first;
-    }
-  }
-
-  const double* w_i;  ///< inverse masses of the first ends
-  const double* w_j;
-  double* i[3];  ///< positions of the first ends
-  double* j[3];
-  double* p[3];  ///< tensions
-  int n;
-};
-
-template <int spring_row_size>
-struct Changes
-{
-  alignas(64) double x[spring_row_size];
-  alignas(64) double y[spring_row_size];
-  alignas(64) double z[spring_row_size];
-};
-
-/// Moves the ends of springs by the changes of their tensions.
-template <int spring_row_size>
-void move_ends(const Stretch& s, const Changes<spring_row_size>& changes)
-{
-  const double* const columns[] = { changes.x, changes.y, changes.z };
-  const double* const w_i = s.w_i;
-  const double* const w_j = s.w_j;
-  for (int d = 0; d < 3; ++d)
-  {
-    const double* const change = columns[d];
-    double* const i = s.i[d];
-    double* const j = s.j[d];
-    const int n = s.n;
-#pragma GCC ivdep
-    for (int k = 0; k < n; ++k)
-    {
-      i[k] += w_i[k] * change[k];
-    }
-#pragma GCC ivdep
-    for (int k = 0; k < n; ++k)
-    {
-      j[k] -= w_j[k] * change[k];
-    }
-  }
-}
-
 using Tensions = std::array<double*, 3>;
 
 /// Of a spring, over that of its ends' masses: only the choice of the first guess knows of it.
@@ -292,11 +234,8 @@ bool SpringTensions::pull_as_before(const Eigen::VectorXd& inverse_masses, Vecto
       }
     });
   });
-  for (int i = 0; i < positions.rows(); ++i)
-  {
-    const double w = inverse_masses[i];
-    parabola.curvature += w > 0.0 ? shifts_.row(i).squaredNorm() / w : 0.0;
-  }
+  const auto squares = shifts_.rowwise().squaredNorm().array();
+  parabola.curvature += (inverse_masses.array() > 0.0).select(squares / inverse_masses.array(), 0.0).sum();
   if (!(parabola.rise > 0.0 && parabola.curvature > 0.0))
   {
     let_go();
