@@ -29,3 +29,15 @@ if(benchmark_FOUND)
 else()
   message(STATUS "Google Benchmark (libbenchmark-dev) is missing: linear_solver and step_cost are left out")
 endif()
+
+find_package(Bullet QUIET)
+if(BULLET_FOUND)
+  add_executable(against_bullet EXCLUDE_FROM_ALL
+    bench/against_bullet.cpp
+    bench/level_sheet.cpp
+  )
+  target_include_directories(against_bullet SYSTEM PRIVATE ${BULLET_INCLUDE_DIR} ${BULLET_INCLUDE_DIRS})
+  target_link_libraries(against_bullet cloth_core ${BULLET_LIBRARIES})
+else()
+  message(STATUS "Bullet (libbullet-dev) is missing: against_bullet is left out")
+endif()

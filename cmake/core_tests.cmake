@@ -35,7 +35,9 @@ cloth_add_test(forces
   test/forces/springs_test.cpp
 )
 cloth_add_test(constraints
+  test/constraints/pin_reach_test.cpp
   test/constraints/pins_test.cpp
+  test/constraints/spring_tensions_test.cpp
   test/constraints/strain_limit_test.cpp
 )
 cloth_add_test(methods

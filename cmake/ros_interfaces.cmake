@@ -6,6 +6,8 @@ find_package(catkin REQUIRED COMPONENTS
   geometry_msgs
   interactive_markers
   message_generation
+  nodelet
+  pluginlib
   rosbag_storage
   roscpp
   rosgraph_msgs

@@ -3,12 +3,14 @@ include_directories(SYSTEM ${catkin_INCLUDE_DIRS})
 # The ROS layer on top of the core: everything that the node does, as a library that tests can link, and a thin main.
 add_library(cloth_ros STATIC
   src/ros/answering_services.cpp
+  src/ros/bag_files.cpp
   src/ros/clock_publisher.cpp
   src/ros/cloth_node.cpp
   src/ros/cloth_replay.cpp
   src/ros/conversions.cpp
   src/ros/end_by_signal.cpp
   src/ros/errands.cpp
+  src/ros/fault_log.cpp
   src/ros/frames.cpp
   src/ros/health.cpp
   src/ros/live_cloth.cpp
@@ -23,6 +25,7 @@ add_library(cloth_ros STATIC
   src/ros/pin_requests.cpp
   src/ros/pin_wrenches.cpp
   src/ros/recorded_model.cpp
+  src/ros/recorded_start.cpp
   src/ros/recorded_topologies.cpp
   src/ros/refusal_log.cpp
   src/ros/replayed_cloth.cpp
@@ -37,8 +40,13 @@ add_library(cloth_ros STATIC
   src/ros/wind_time_out.cpp
 )
 add_dependencies(cloth_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+set_target_properties(cloth_ros PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_include_directories(cloth_ros PUBLIC src/ros)
 target_link_libraries(cloth_ros PUBLIC cloth_core ${catkin_LIBRARIES})
+
+# The same code for nodelet managers.
+add_library(cloth_nodelet MODULE src/ros/cloth_nodelet.cpp)
+target_link_libraries(cloth_nodelet PRIVATE cloth_ros)
 
 add_executable(cloth_node src/ros/cloth_node_main.cpp)
 target_link_libraries(cloth_node PRIVATE cloth_ros)
@@ -46,7 +54,7 @@ target_link_libraries(cloth_node PRIVATE cloth_ros)
 add_executable(cloth_replay src/ros/cloth_replay_main.cpp)
 target_link_libraries(cloth_replay PRIVATE cloth_ros)
 
-install(TARGETS cloth_core
+install(TARGETS cloth_core cloth_nodelet
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}
@@ -56,6 +64,9 @@ install(TARGETS cloth_node cloth_replay cloth_run parameter_page
 )
 install(DIRECTORY include/${PROJECT_NAME}/
   DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}
+)
+install(FILES nodelet_plugins.xml
+  DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
 )
 install(DIRECTORY config launch
   DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}

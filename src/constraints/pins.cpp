@@ -231,6 +231,18 @@ void Pins::impose_velocities(double time, Vectors& velocities) const
   }
 }
 
+void Pins::find_inverse_masses(const Eigen::VectorXd& masses, Eigen::VectorXd& inverse_masses) const
+{
+  inverse_masses.head(masses.size()) = masses.cwiseInverse();
+  for (const Pin& pin : pins_)
+  {
+    for (const int node : pin.nodes)
+    {
+      inverse_masses[node] = 0.0;
+    }
+  }
+}
+
 void Pins::clear_held(Vectors& rows) const
 {
   for (const Pin& pin : pins_)

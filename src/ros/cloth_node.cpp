@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include <boost/make_shared.hpp>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <visualization_msgs/Marker.h>
@@ -239,9 +240,9 @@ Answer ClothNode::replace_cloth(std::unique_ptr<LiveCloth> next)
 {
   apply_requests();  // they were meant for the old cloth
   statistics_.restart(cloth_->simulation.state().time);
-  if (const auto* markers = cloth_->pins.update({}, cloth_->simulation.state().positions, clock_.now()))
+  if (const auto markers = cloth_->pins.update({}, cloth_->simulation.state().positions, clock_.now()))
   {
-    pins_.publish(*markers);
+    pins_.publish(markers);
   }
   handles_.clear();
   cloth_ = std::move(next);
@@ -303,7 +304,7 @@ void ClothNode::run()
   const Errands::Doer doer(errands_);
   publish_topology();
   publish_cloth(clock_.now());
-  while (ros::ok())
+  while (goes_on())
   {
     errands_.do_all();
     if (const auto tick = clock_.take())
@@ -317,6 +318,11 @@ void ClothNode::run()
     publish_stats_when_due();
     publish_diagnostics_when_due();
   }
+}
+
+bool ClothNode::goes_on() const
+{
+  return ros::ok() && !stops_;
 }
 
 void ClothNode::run_tick(const Tick& tick)
@@ -409,13 +415,13 @@ bool ClothNode::advance(double simulated_time)
   const auto first_break = *tick_begin_ + longest_wait;
   const auto needs_a_break = [&] {
     const auto now = WallClock::now();
-    return !ros::ok() || (now > first_break && (errands_.any_waiting() || statistics_.due(now)));
+    return !goes_on() || (now > first_break && (errands_.any_waiting() || statistics_.due(now)));
   };
   while (cloth_->simulation.advance_to(simulated_time, needs_a_break) &&
          cloth_->simulation.state().time < simulated_time)
   {
     errands_.do_all();
-    if (started_over_ || !ros::ok())
+    if (started_over_ || !goes_on())
     {
       break;
     }
@@ -424,7 +430,7 @@ bool ClothNode::advance(double simulated_time)
   }
   tick_begin_.reset();
   report_divergence();
-  return !started_over_ && ros::ok();
+  return !started_over_ && goes_on();
 }
 
 void ClothNode::report_divergence()
@@ -441,19 +447,21 @@ void ClothNode::publish_cloth(const ros::Time& stamp)
 {
   const Simulation& simulation = cloth_->simulation;
   const Vectors& positions = simulation.state().positions;
-  state_message_.header.frame_id = cloth_->plan.scene.frame_id;
-  state_message_.header.stamp = stamp;
-  state_message_.topology_version = topology_message_.version;
-  fill_state(simulation, state_message_);
+  const cloth_sim::ClothState::Ptr state = state_messages_.take();
+  state->header.frame_id = cloth_->plan.scene.frame_id;
+  state->header.stamp = stamp;
+  state->topology_version = topology_message_.version;
+  fill_state(simulation, *state);
+  state_message_ = state;
   state_.publish(state_message_);
   mesh_.publish(cloth_->mesh.update(positions, stamp));
   if (springs_.getNumSubscribers() > 0)
   {
     springs_.publish(cloth_->springs.update(positions, stamp));
   }
-  if (const auto* markers = cloth_->pins.update(simulation.pins().all(), positions, stamp))
+  if (const auto markers = cloth_->pins.update(simulation.pins().all(), positions, stamp))
   {
-    pins_.publish(*markers);
+    pins_.publish(markers);
   }
   show_handles();
 }
@@ -469,7 +477,7 @@ void ClothNode::show_handles()
 void ClothNode::publish_topology()
 {
   topology_message_.header.stamp = clock_.now();
-  topology_.publish(topology_message_);
+  topology_.publish(boost::make_shared<cloth_sim::ClothTopology>(topology_message_));
 }
 
 void ClothNode::publish_topology_if_changed()
@@ -498,10 +506,15 @@ void ClothNode::publish_stats_when_due()
   stats_message_.paused = clock_.paused() ? 1 : 0;
   stats_message_.plan = joined(describe(cloth_->plan, simulation), "\n");
   stats_message_.plan += tuning_report_.empty() ? "" : "\n" + tuning_report_;
-  stats_.publish(stats_message_);
+  stats_.publish(boost::make_shared<cloth_sim::ClothStats>(stats_message_));
   if (clock_.paused())
   {
     state_.publish(state_message_);  // for those who came since
+  }
+  const std::string too_far = reach_warning(simulation);
+  if (!too_far.empty())
+  {
+    ROS_WARN_THROTTLE(10.0, "%s", too_far.c_str());
   }
   const std::string unsolved = convergence_warning(simulation);
   if (!unsolved.empty())

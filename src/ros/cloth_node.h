@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,6 +31,7 @@
 #include "pin_wrenches.h"
 #include "refusal_log.h"
 #include "request_queue.h"
+#include "reused_messages.h"
 #include "tick_statistics.h"
 #include "tuning.h"
 
@@ -45,8 +47,14 @@ public:
   /// `LiveCloth` and `NodeClock` throw.
   ClothNode(const ros::NodeHandle& private_node, const SceneParams& scene);
 
-  /// Ticks until ROS shuts down. Callbacks need a spinner of their own.
+  /// Ticks until ROS shuts down or `stop` is called. Callbacks need a spinner of their own.
   void run();
+
+  /// Has `run` end soon. From any thread.
+  void stop()
+  {
+    stops_ = true;
+  }
 
 private:
   void advertise();
@@ -72,6 +80,7 @@ private:
   SceneParams tune(const SceneParams& scene);
   Answer tune_cloth(const SceneParams& scene);
 
+  bool goes_on() const;
   void run_tick(const Tick& tick);
   void idle();
   bool apply_requests();
@@ -96,6 +105,7 @@ private:
   ros::NodeHandle private_node_;
   std::unique_ptr<LiveCloth> cloth_;
   NodeClock clock_;
+  std::atomic<bool> stops_{ false };
   TickStatistics statistics_;
   Errands errands_;
   RequestQueue requests_;
@@ -110,7 +120,8 @@ private:
   tf2_ros::TransformListener transform_listener_;
   Frames frames_;
 
-  cloth_sim::ClothState state_message_;
+  ReusedMessages<cloth_sim::ClothState> state_messages_;
+  cloth_sim::ClothState::ConstPtr state_message_;  ///< the last
   cloth_sim::ClothTopology topology_message_;
   cloth_sim::ClothStats stats_message_;
   double tick_rate_ = 0.0;  ///< Hz, of the period of the stats

@@ -1,30 +1,13 @@
 #include <cstdlib>
-#include <sstream>
 
-#include <ros/console.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
-#include "cloth_sim/scene/scene_reader.h"
-
 #include "cloth_node.h"
 #include "end_by_signal.h"
+#include "fault_log.h"
 #include "node_scene.h"
-
-namespace
-{
-
-void log_faults(const cloth::SceneError& error)
-{
-  std::istringstream faults(error.what());
-  for (std::string fault; std::getline(faults, fault);)
-  {
-    ROS_FATAL("%s", fault.c_str());
-  }
-}
-
-}  // namespace
 
 int main(int argc, char** argv)
 {
@@ -45,13 +28,9 @@ int main(int argc, char** argv)
     node.run();
     return EXIT_SUCCESS;
   }
-  catch (const cloth::SceneError& error)
-  {
-    log_faults(error);
-  }
   catch (const std::exception& error)
   {
-    ROS_FATAL("%s", error.what());
+    cloth::log_fault(error);
   }
   return EXIT_FAILURE;
 }

@@ -70,9 +70,9 @@ void ClothReplay::change_to(const cloth_sim::ClothTopology::ConstPtr& topology, 
   auto next = std::make_unique<ReplayedCloth>(topology, scene_);
   if (cloth_ != nullptr)
   {
-    if (const auto* markers = cloth_->pins.update({}, cloth_->positions, stamp))
+    if (const auto markers = cloth_->pins.update({}, cloth_->positions, stamp))
     {
-      pins_.publish(*markers);
+      pins_.publish(markers);
     }
   }
   cloth_ = std::move(next);
@@ -93,7 +93,7 @@ void ClothReplay::publish_pins(const ros::Time& stamp)
   // When time jumps back rviz forgets its markers, a little later than the states jump: pins that do not change are
   // published again then, and once a second.
   const bool due = stamp < pins_stamp_ || stamp >= pins_stamp_ + ros::Duration(1.0);
-  const auto* markers = cloth_->pins.update(cloth_->held, cloth_->positions, stamp);
+  auto markers = cloth_->pins.update(cloth_->held, cloth_->positions, stamp);
   if (markers == nullptr && due)
   {
     cloth_->forget_shown_pins();
@@ -101,7 +101,7 @@ void ClothReplay::publish_pins(const ros::Time& stamp)
   }
   if (markers != nullptr)
   {
-    pins_.publish(*markers);
+    pins_.publish(markers);
     pins_stamp_ = stamp;
   }
 }

@@ -23,8 +23,8 @@ namespace cloth
 class ClothReplay
 {
 public:
-  /// `private_node` is the namespace of the markers, `scene` tells how to draw. `bags` (files, separated by blanks) are
-  /// read for topologies that do not come by topic. Throws what `RecordedTopologies::add_from_bags` throws.
+  /// `private_node` is the namespace of the markers, `scene` tells how to draw. `bags` (as `bag_files` reads
+  /// them) are read for topologies that do not come by topic. Throws what `RecordedTopologies::add_from_bags` throws.
   ClothReplay(const ros::NodeHandle& private_node, const SceneParams& scene, const std::string& bags);
 
 private:

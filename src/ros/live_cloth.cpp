@@ -1,5 +1,6 @@
 #include "live_cloth.h"
 
+#include "recorded_start.h"
 #include "scene_display.h"
 
 namespace cloth
@@ -18,11 +19,23 @@ Simulation simulation_with(const Plan& plan, const LiveCloth& running)
   return simulation;
 }
 
+/// Pins are no live keys: those of a recording stay, which the scene does not have.
+SceneParams with_pins_of(const LiveCloth& running, SceneParams next)
+{
+  next.pins = running.scene.pins;
+  return next;
+}
+
+Plan plan_of(const SceneParams& scene)
+{
+  return scene.node.start_bag.empty() ? make_plan(scene) : plan_from_recording(scene);
+}
+
 }  // namespace
 
-LiveCloth::LiveCloth(const SceneParams& scene)
-  : scene(scene)
-  , plan(make_plan(scene))
+LiveCloth::LiveCloth(const SceneParams& given)
+  : scene(given)
+  , plan(plan_of(scene))
   , simulation(build_simulation(plan))
   , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
   , springs(simulation.model(), plan.scene.frame_id)
@@ -30,11 +43,12 @@ LiveCloth::LiveCloth(const SceneParams& scene)
   , attachments(plan.scene.node.tf_pins)
   , wind_time_out(plan.scene.node.wind_timeout)
 {
+  scene.pins = plan.scene.pins;
 }
 
 LiveCloth::LiveCloth(const LiveCloth& running, const SceneParams& next)
-  : scene(next)
-  , plan(live_plan(running.plan, next))
+  : scene(with_pins_of(running, next))
+  , plan(live_plan(running.plan, scene))
   , simulation(simulation_with(plan, running))
   , mesh(mesh_marker_of(simulation.model(), plan.scene.frame_id, plan.scene))
   , springs(simulation.model(), plan.scene.frame_id)

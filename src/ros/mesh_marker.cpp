@@ -27,24 +27,27 @@ MeshMarker::MeshMarker(const ClothModel& model, const std::string& frame_id, con
   colours_.resize(static_cast<size_t>(model.nodes()) * (ribbon_ ? 2 : 1));
   strains_.resize(static_cast<size_t>(model.nodes()));
 
-  marker_.header.frame_id = frame_id;
-  marker_.ns = "cloth";
-  marker_.type = visualization_msgs::Marker::TRIANGLE_LIST;
-  marker_.action = visualization_msgs::Marker::ADD;
-  marker_.pose.orientation.w = 1.0;
-  marker_.scale.x = marker_.scale.y = marker_.scale.z = 1.0;
-  marker_.color = to_colour(colouring.fabric);
-  marker_.points.resize(3 * triangles_.size());
-  marker_.colors.resize(3 * triangles_.size());
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = frame_id;
+  marker.ns = "cloth";
+  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.color = to_colour(colouring.fabric);
+  marker.points.resize(3 * triangles_.size());
+  marker.colors.resize(3 * triangles_.size());
+  markers_ = ReusedMessages<visualization_msgs::Marker>(marker);
 }
 
-const visualization_msgs::Marker& MeshMarker::update(const Vectors& positions, const ros::Time& stamp)
+visualization_msgs::Marker::ConstPtr MeshMarker::update(const Vectors& positions, const ros::Time& stamp)
 {
-  marker_.header.stamp = stamp;
   const Vectors& vertices = lay_surface(positions);
   colour_vertices(positions);
-  fill_marker(vertices);
-  return marker_;
+  const visualization_msgs::Marker::Ptr marker = markers_.take();
+  marker->header.stamp = stamp;
+  fill_marker(vertices, *marker);
+  return marker;
 }
 
 const Vectors& MeshMarker::lay_surface(const Vectors& positions)
@@ -99,15 +102,15 @@ void MeshMarker::colour_vertices(const Vectors& positions)
   }
 }
 
-void MeshMarker::fill_marker(const Vectors& vertices)
+void MeshMarker::fill_marker(const Vectors& vertices, visualization_msgs::Marker& marker) const
 {
   size_t corner = 0;
   for (const auto& triangle : triangles_)
   {
     for (const int vertex : triangle)
     {
-      marker_.points[corner] = to_point(vertices, vertex);
-      marker_.colors[corner] = colours_[static_cast<size_t>(vertex)];
+      marker.points[corner] = to_point(vertices, vertex);
+      marker.colors[corner] = colours_[static_cast<size_t>(vertex)];
       ++corner;
     }
   }

@@ -12,6 +12,7 @@
 
 #include "cloth_sim/model/cloth_model.h"
 
+#include "reused_messages.h"
 #include "ribbon.h"
 
 namespace cloth
@@ -27,7 +28,8 @@ struct MeshColouring
 
 /// The cloth as one TRIANGLE_LIST for rviz: two triangles a quad; a chain as a ribbon. Light and shade are in the
 /// vertex colours, because rviz leaves the backs of triangles of one uniform colour black. Namespace, id and number of
-/// triangles never change, so that rviz updates its buffer in place; the memory is used again for every tick.
+/// triangles never change, so that rviz updates its buffer in place; the memory is used again once nobody holds the
+/// marker.
 class MeshMarker
 {
 public:
@@ -35,14 +37,14 @@ public:
   MeshMarker(const ClothModel& model, const std::string& frame_id, const MeshColouring& colouring,
              const Eigen::Vector3d& across);
 
-  /// The marker of the nodes' `positions` (m, finite), valid until the next call.
-  const visualization_msgs::Marker& update(const Vectors& positions, const ros::Time& stamp);
+  /// The marker of the nodes' `positions` (m, finite). Whoever holds it keeps it as it is.
+  visualization_msgs::Marker::ConstPtr update(const Vectors& positions, const ros::Time& stamp);
 
 private:
   const Vectors& lay_surface(const Vectors& positions);
   void find_strains(const Vectors& positions);
   void colour_vertices(const Vectors& positions);
-  void fill_marker(const Vectors& vertices);
+  void fill_marker(const Vectors& vertices, visualization_msgs::Marker& marker) const;
 
   const ClothModel& model_;
   MeshColouring colouring_;
@@ -52,7 +54,7 @@ private:
   Vectors normals_;                           ///< one row a vertex
   std::vector<std_msgs::ColorRGBA> colours_;  ///< one a vertex
   std::vector<double> strains_;               ///< the worst of each node's structural and shear springs
-  visualization_msgs::Marker marker_;
+  ReusedMessages<visualization_msgs::Marker> markers_;
 };
 
 }  // namespace cloth

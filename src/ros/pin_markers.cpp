@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <boost/make_shared.hpp>
+
 #include "conversions.h"
 
 namespace cloth
@@ -12,14 +14,14 @@ PinMarkers::PinMarkers(const ClothModel& model, const std::string& frame_id)
 {
 }
 
-const visualization_msgs::MarkerArray* PinMarkers::update(const std::vector<Pin>& pins, const Vectors& positions,
-                                                          const ros::Time& stamp)
+visualization_msgs::MarkerArray::ConstPtr PinMarkers::update(const std::vector<Pin>& pins, const Vectors& positions,
+                                                             const ros::Time& stamp)
 {
   if (shown_before_ && shows(pins, positions))
   {
     return nullptr;
   }
-  message_.markers.clear();
+  const auto message = boost::make_shared<visualization_msgs::MarkerArray>();
   for (visualization_msgs::Marker& old : shown_)
   {
     const bool stays = std::any_of(pins.begin(), pins.end(), [&](const Pin& pin) { return pin.name == old.ns; });
@@ -28,7 +30,7 @@ const visualization_msgs::MarkerArray* PinMarkers::update(const std::vector<Pin>
       old.header.stamp = stamp;
       old.action = visualization_msgs::Marker::DELETE;
       old.points.clear();
-      message_.markers.push_back(old);
+      message->markers.push_back(old);
     }
   }
   shown_.clear();
@@ -36,9 +38,9 @@ const visualization_msgs::MarkerArray* PinMarkers::update(const std::vector<Pin>
   {
     shown_.push_back(marker_of(pin, positions, stamp));
   }
-  message_.markers.insert(message_.markers.end(), shown_.begin(), shown_.end());
+  message->markers.insert(message->markers.end(), shown_.begin(), shown_.end());
   shown_before_ = true;
-  return &message_;
+  return message;
 }
 
 bool PinMarkers::shows(const std::vector<Pin>& pins, const Vectors& positions) const

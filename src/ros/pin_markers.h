@@ -19,9 +19,9 @@ class PinMarkers
 public:
   PinMarkers(const ClothModel& model, const std::string& frame_id);
 
-  /// The markers at the nodes' `positions` (m), valid until the next call; null when nothing changed since the last.
-  const visualization_msgs::MarkerArray* update(const std::vector<Pin>& pins, const Vectors& positions,
-                                                const ros::Time& stamp);
+  /// The markers at the nodes' `positions` (m); null when nothing changed since the last call.
+  visualization_msgs::MarkerArray::ConstPtr update(const std::vector<Pin>& pins, const Vectors& positions,
+                                                   const ros::Time& stamp);
 
 private:
   bool shows(const std::vector<Pin>& pins, const Vectors& positions) const;
@@ -31,7 +31,6 @@ private:
   double diameter_;  ///< m
   bool shown_before_ = false;
   std::vector<visualization_msgs::Marker> shown_;  ///< one a pin, in the order of the pins
-  visualization_msgs::MarkerArray message_;
 };
 
 }  // namespace cloth

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <boost/make_shared.hpp>
 #include <geometry_msgs/WrenchStamped.h>
 
 #include "conversions.h"
@@ -73,11 +74,11 @@ void PinWrenches::publish(const Simulation& simulation, const std::string& frame
       continue;
     }
     const Wrench wrench = simulation.reaction_on(*pin);
-    geometry_msgs::WrenchStamped message;
-    message.header.frame_id = frame_id;
-    message.header.stamp = stamp;
-    message.wrench.force = to_vector(wrench.force);
-    message.wrench.torque = to_vector(wrench.torque);
+    const auto message = boost::make_shared<geometry_msgs::WrenchStamped>();
+    message->header.frame_id = frame_id;
+    message->header.stamp = stamp;
+    message->wrench.force = to_vector(wrench.force);
+    message->wrench.torque = to_vector(wrench.torque);
     publisher.publish(message);
   }
 }

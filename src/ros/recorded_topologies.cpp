@@ -1,10 +1,11 @@
 #include "recorded_topologies.h"
 
 #include <iterator>
-#include <sstream>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+
+#include "bag_files.h"
 
 namespace cloth
 {
@@ -32,8 +33,7 @@ void RecordedTopologies::add(const ClothTopology::ConstPtr& topology)
 
 void RecordedTopologies::add_from_bags(const std::string& bags, const std::string& topic)
 {
-  std::istringstream files(bags);
-  for (std::string file; files >> file;)
+  for (const std::string& file : bag_files(bags))
   {
     const rosbag::Bag bag(file);
     for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic)))

@@ -18,7 +18,7 @@ class RecordedTopologies
 public:
   void add(const cloth_sim::ClothTopology::ConstPtr& topology);
 
-  /// Adds those that were recorded on `topic` to `bags`: files, separated by blanks. Throws rosbag::BagException.
+  /// Adds those that were recorded on `topic` to `bags`: as `bag_files` reads them. Throws rosbag::BagException.
   void add_from_bags(const std::string& bags, const std::string& topic);
 
   /// That of a state with this topology_version and stamp; null: it has not come yet. Versions count from the start of

@@ -26,30 +26,33 @@ Eigen::Vector3d colour_of(SpringKind kind)
 
 SpringMarker::SpringMarker(const ClothModel& model, const std::string& frame_id) : model_(model)
 {
-  marker_.header.frame_id = frame_id;
-  marker_.ns = "springs";
-  marker_.type = visualization_msgs::Marker::LINE_LIST;
-  marker_.action = visualization_msgs::Marker::ADD;
-  marker_.pose.orientation.w = 1.0;
-  marker_.scale.x = 0.001 * std::max(model.width, model.height);
-  marker_.color = to_colour(colour_of(SpringKind::structural));
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = frame_id;
+  marker.ns = "springs";
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = 0.001 * std::max(model.width, model.height);
+  marker.color = to_colour(colour_of(SpringKind::structural));
+  markers_ = ReusedMessages<visualization_msgs::Marker>(marker);
 }
 
-const visualization_msgs::Marker& SpringMarker::update(const Vectors& positions, const ros::Time& stamp)
+visualization_msgs::Marker::ConstPtr SpringMarker::update(const Vectors& positions, const ros::Time& stamp)
 {
-  marker_.header.stamp = stamp;
-  marker_.points.clear();
-  marker_.colors.clear();
+  const visualization_msgs::Marker::Ptr marker = markers_.take();
+  marker->header.stamp = stamp;
+  marker->points.clear();
+  marker->colors.clear();
   for (const SpringBatch& batch : model_.springs)
   {
     const std_msgs::ColorRGBA colour = to_colour(colour_of(batch.kind));
     for_each_spring(batch, [&](int i, int j) {
-      marker_.points.push_back(to_point(positions, i));
-      marker_.points.push_back(to_point(positions, j));
-      marker_.colors.insert(marker_.colors.end(), 2, colour);
+      marker->points.push_back(to_point(positions, i));
+      marker->points.push_back(to_point(positions, j));
+      marker->colors.insert(marker->colors.end(), 2, colour);
     });
   }
-  return marker_;
+  return marker;
 }
 
 }  // namespace cloth

@@ -7,6 +7,8 @@
 
 #include "cloth_sim/model/cloth_model.h"
 
+#include "reused_messages.h"
+
 namespace cloth
 {
 
@@ -17,12 +19,12 @@ public:
   /// `model` must outlive this object.
   SpringMarker(const ClothModel& model, const std::string& frame_id);
 
-  /// The marker of the nodes' `positions` (m, finite), valid until the next call.
-  const visualization_msgs::Marker& update(const Vectors& positions, const ros::Time& stamp);
+  /// The marker of the nodes' `positions` (m, finite). Whoever holds it keeps it as it is.
+  visualization_msgs::Marker::ConstPtr update(const Vectors& positions, const ros::Time& stamp);
 
 private:
   const ClothModel& model_;
-  visualization_msgs::Marker marker_;
+  ReusedMessages<visualization_msgs::Marker> markers_;
 };
 
 }  // namespace cloth

@@ -111,6 +111,11 @@ inline void assign(MassLumping& target, const std::string& word)
   target = word == "area" ? MassLumping::area : MassLumping::uniform;
 }
 
+inline void assign(LimitSolver& target, const std::string& word)
+{
+  target = word == "tensions" ? LimitSolver::tensions : LimitSolver::plain_sweeps;
+}
+
 inline void assign(bool& target, const std::string& word)
 {
   target = word == "true";
@@ -124,6 +129,11 @@ inline std::string word_of(const std::string& value)
 inline std::string word_of(MassLumping value)
 {
   return value == MassLumping::area ? "area" : "uniform";
+}
+
+inline std::string word_of(LimitSolver value)
+{
+  return value == LimitSolver::tensions ? "tensions" : "sweeps";
 }
 
 inline std::string word_of(bool value)

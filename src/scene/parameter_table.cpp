@@ -1,6 +1,7 @@
 #include "cloth_sim/scene/parameter_table.h"
 
 #include <cctype>
+#include <stdexcept>
 
 #include "cloth_sim/methods/method.h"
 #include "cloth_sim/scene/pin_selection.h"
@@ -79,6 +80,31 @@ Parameter<SceneParams> live(Parameter<SceneParams> parameter)
   return parameter;
 }
 
+/// A file. None is an empty path in the scene, and the word where it is written.
+template <typename Access>
+Parameter<SceneParams> path_or_none(const char* key, const char* meaning, Access access)
+{
+  constexpr const char* none = "none";
+  Parameter<SceneParams> parameter;
+  parameter.key = key;
+  parameter.type = "path";
+  parameter.allowed = "an absolute path, or none";
+  parameter.meaning = meaning;
+  parameter.set = [=](const YAML::Node& value, SceneParams& target) {
+    const std::string text = value.IsScalar() ? value.Scalar() : std::string();
+    if (text != none && (text.empty() || text[0] != '/'))
+    {
+      throw std::invalid_argument("not an absolute path");
+    }
+    access(target) = text == none ? std::string() : text;
+  };
+  parameter.get = [=](const SceneParams& target) {
+    const std::string& text = access(target);
+    return text.empty() ? std::string(none) : text;
+  };
+  return parameter;
+}
+
 // An accessor that serves for reading and for writing.
 #define CLOTH_MEMBER(path)  \
   [](auto& target) -> auto& \
@@ -141,6 +167,10 @@ std::vector<Parameter<SceneParams>> make_table()
                        CLOTH_MEMBER(strain_limit.max_strain))),
     live(Scene::integer("strain_limit.sweeps", 1, 100000, "most passes over the springs after a step",
                         CLOTH_MEMBER(strain_limit.sweeps))),
+    Scene::choice("strain_limit.solver", { "tensions", "sweeps" },
+                  "how springs are shortened: by tensions that carry over from step to step, in few passes, or by "
+                  "Provot's plain sweeps",
+                  CLOTH_MEMBER(strain_limit.solver)),
 
     live(Scene::number("air.viscous_damping", "N s/m per m2", not_negative, "drag of the air at rest, in any direction",
                        CLOTH_MEMBER(air.viscous_damping))),
@@ -194,6 +224,14 @@ std::vector<Parameter<SceneParams>> make_table()
                            CLOTH_MEMBER(node.clock_mode))),
     for_node(Scene::choice("start_paused", { "false", "true" }, "whether time stands still at the start",
                            CLOTH_MEMBER(node.start_paused))),
+    for_node(
+        path_or_none("start_bag",
+                     "a recording of ~state and ~topology of one cloth, from a state of which the cloth goes on; the "
+                     "start that the scene describes is not used then",
+                     CLOTH_MEMBER(node.start_bag))),
+    for_node(Scene::number("start_time", "s", Range{ 0.0, true, 1e9 },
+                           "from the beginning of the recording to that state, the first from then on",
+                           CLOTH_MEMBER(node.start_time))),
     for_node(Scene::number("tf_pins.top_speed", "m/s", positive,
                            "the fastest, in simulated time, that a pin follows the tf frame that carries it; where the "
                            "frame jumps it catches up at this speed",

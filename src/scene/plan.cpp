@@ -228,6 +228,12 @@ Plan make_plan(const SceneParams& scene)
   return plan_with(scene, model, scene_start(scene, model));
 }
 
+Plan make_plan(const SceneParams& scene, const SceneStart& start)
+{
+  require_fitting_compliance(scene.solver);
+  return plan_with(scene, make_sheet(scene.sheet), start);
+}
+
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
@@ -328,6 +334,19 @@ std::string convergence_warning(const Simulation& simulation)
   return std::to_string(counters.unconverged_steps) + " of " + std::to_string(counters.steps) + " steps of " +
          simulation.method().name + " were not solved to its bound; a shorter solver.time_step helps" +
          (std::string(simulation.method().name) == "projective" ? ", and so do more solver.iterations" : "");
+}
+
+std::string reach_warning(const Simulation& simulation)
+{
+  const StrainLimit& limit = simulation.strain_limit();
+  if (!limit.active() || limit.reach().strain <= limit.properties().max_strain)
+  {
+    return {};
+  }
+  return "the pins " + limit.reach().first + " and " + limit.reach().second +
+         " are so far apart that springs between them are strained by " + format_number(limit.reach().strain) +
+         " at least, and strain_limit.max_strain is " + format_number(limit.properties().max_strain) +
+         ": the limit gives way; bring the pins nearer to each other";
 }
 
 }  // namespace cloth

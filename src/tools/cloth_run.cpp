@@ -143,10 +143,12 @@ int run(const cloth::RunOptions& options)
     progress.show(sampled, sampled / stopwatch.seconds());
   }
   progress.end();
-  const std::string unsolved = cloth::convergence_warning(simulation);
-  if (!unsolved.empty())
+  for (const std::string& warning : { cloth::convergence_warning(simulation), cloth::reach_warning(simulation) })
   {
-    std::cerr << "cloth_run: warning: " << unsolved << "\n";
+    if (!warning.empty())
+    {
+      std::cerr << "cloth_run: warning: " << warning << "\n";
+    }
   }
 
   if (output)

@@ -41,20 +41,21 @@ TEST(MeshMarker, CoversTheSheet)
 {
   const ClothModel model = model_of(5, 4);
   MeshMarker mesh(model, "world", {}, Eigen::Vector3d::UnitX());
-  EXPECT_NEAR(area_of(mesh.update(model.rest_positions, ros::Time(1.0))), 1.0, 1e-12);
+  EXPECT_NEAR(area_of(*mesh.update(model.rest_positions, ros::Time(1.0))), 1.0, 1e-12);
 }
 
-TEST(MeshMarker, TakesItsMemoryOnce)
+TEST(MeshMarker, UsesItsMemoryAgainOnceNobodyHoldsIt)
 {
   const ClothModel model = model_of(5, 4);
   MeshMarker mesh(model, "world", {}, Eigen::Vector3d::UnitX());
-  const auto& first = mesh.update(model.rest_positions, ros::Time(1.0));
-  const auto* const points = first.points.data();
-  const auto* const colours = first.colors.data();
-  const auto& second = mesh.update(2.0 * model.rest_positions, ros::Time(2.0));
-  EXPECT_EQ(second.points.data(), points);
-  EXPECT_EQ(second.colors.data(), colours);
-  EXPECT_NEAR(area_of(second), 4.0, 1e-12);
+  const auto* const points = mesh.update(model.rest_positions, ros::Time(1.0))->points.data();
+  const auto second = mesh.update(2.0 * model.rest_positions, ros::Time(2.0));
+  EXPECT_EQ(second->points.data(), points);
+  EXPECT_NEAR(area_of(*second), 4.0, 1e-12);
+  const auto third = mesh.update(3.0 * model.rest_positions, ros::Time(3.0));
+  EXPECT_NEAR(area_of(*second), 4.0, 1e-12);
+  EXPECT_EQ(second->header.stamp, ros::Time(2.0));
+  EXPECT_NEAR(area_of(*third), 9.0, 1e-12);
 }
 
 TEST(MeshMarker, AChainIsARibbonOfItsStripsWidth)
@@ -67,7 +68,7 @@ TEST(MeshMarker, AChainIsARibbonOfItsStripsWidth)
     (down ? properties.width : properties.height) = 0.1;
     const ClothModel model = make_sheet(properties);
     MeshMarker mesh(model, "world", {}, down ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ());
-    const auto& marker = mesh.update(model.rest_positions, ros::Time(1.0));
+    const auto& marker = *mesh.update(model.rest_positions, ros::Time(1.0));
     EXPECT_EQ(marker.points.size(), 3u * 2u * 5u);
     EXPECT_NEAR(area_of(marker), 0.1, 1e-12);
     for (const auto& colour : marker.colors)
@@ -83,7 +84,8 @@ TEST(MeshMarker, ARibbonStaysFiniteWhereTheChainFolds)
   Vectors positions = Vectors::Zero(5, 3);
   positions.col(0) << 0.0, 1.0, 1.0, 1.0, 0.0;  // along its own width, two links of no length, and back
   MeshMarker mesh(model, "world", {}, Eigen::Vector3d::UnitX());
-  for (const auto& point : mesh.update(positions, ros::Time(1.0)).points)
+  const auto marker = mesh.update(positions, ros::Time(1.0));
+  for (const auto& point : marker->points)
   {
     EXPECT_TRUE(to_eigen(point).allFinite());
   }
@@ -97,7 +99,7 @@ TEST(MeshMarker, StrainColoursFollowTheWorstSpringOfANode)
   for (const double full_strain : { 0.2, 0.0 })
   {
     MeshMarker mesh(model, "world", { { 0.75, 0.16, 0.18 }, true, full_strain }, Eigen::Vector3d::UnitX());
-    const auto& marker = mesh.update(positions, ros::Time(1.0));
+    const auto& marker = *mesh.update(positions, ros::Time(1.0));
     const Eigen::Vector3d last = positions.row(8);
     for (size_t c = 0; c < marker.points.size(); ++c)
     {

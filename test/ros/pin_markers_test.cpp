@@ -22,7 +22,7 @@ protected:
 
 TEST_F(PinMarkersTest, EachPinHasASphereForEachNode)
 {
-  const auto* const message = markers_.update(pins_, positions_, ros::Time(1.0));
+  const auto message = markers_.update(pins_, positions_, ros::Time(1.0));
   ASSERT_NE(message, nullptr);
   ASSERT_EQ(message->markers.size(), 2u);
   EXPECT_EQ(message->markers[0].ns, "a");
@@ -43,7 +43,7 @@ TEST_F(PinMarkersTest, APinThatIsGoneIsDeletedOnce)
 {
   markers_.update(pins_, positions_, ros::Time(1.0));
   pins_.erase(pins_.begin());
-  const auto* message = markers_.update(pins_, positions_, ros::Time(2.0));
+  auto message = markers_.update(pins_, positions_, ros::Time(2.0));
   ASSERT_NE(message, nullptr);
   ASSERT_EQ(message->markers.size(), 2u);
   EXPECT_EQ(message->markers[0].ns, "a");
@@ -55,7 +55,7 @@ TEST_F(PinMarkersTest, APinThatIsGoneIsDeletedOnce)
 
 TEST_F(PinMarkersTest, AFreeSheetSaysSoOnce)
 {
-  const auto* const message = markers_.update({}, positions_, ros::Time(1.0));
+  const auto message = markers_.update({}, positions_, ros::Time(1.0));
   ASSERT_NE(message, nullptr);
   EXPECT_TRUE(message->markers.empty());
   EXPECT_EQ(markers_.update({}, positions_, ros::Time(2.0)), nullptr);

@@ -34,12 +34,12 @@ TEST(RecordedModel, IsDrawnAsTheModelThatWasRecorded)
     const auto mesh = [&](const ClothModel& model) {
       return MeshMarker(model, "world", by_strain, Eigen::Vector3d::UnitY()).update(positions, ros::Time(1.0));
     };
-    EXPECT_EQ(mesh(recorded).points.size(), mesh(live).points.size());
+    EXPECT_EQ(mesh(recorded)->points.size(), mesh(live)->points.size());
     const auto springs = [&](const ClothModel& model) {
       return SpringMarker(model, "world").update(positions, ros::Time(1.0));
     };
-    EXPECT_EQ(springs(recorded).points, springs(live).points);
-    EXPECT_EQ(springs(recorded).colors, springs(live).colors);
+    EXPECT_EQ(springs(recorded)->points, springs(live)->points);
+    EXPECT_EQ(springs(recorded)->colors, springs(live)->colors);
   }
 }
 

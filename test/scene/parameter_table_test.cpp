@@ -118,6 +118,7 @@ Strings values_to_try(const Parameter<Target>& parameter)
     { "list of 2 numbers", { "[0.25, 0.5]" } },
     { "list of 3 numbers", { "[0.25, 0.5, 0.125]" } },
     { "list of [row, col]", { "[[0, 1], [-2, -1]]" } },
+    { "path", { "/tmp/a cloth.bag" } },
   };
   const auto found = by_type.find(parameter.type);
   Strings values = found != by_type.end() ? found->second : words_of(parameter);
@@ -222,6 +223,8 @@ std::vector<Edge> edges<SceneParams>()
     { "solver.threads", { "-1", "65", "1.5" }, { "0", "1", "64" } },
     { "solver.time_step", { "-1", "1.0e-300", "9.0e-10" }, { "0", "1.0e-9", "1" } },
     { "solver.tolerance", { "0", "-1", "9.0e-13" }, { "1.0e-12", "1" } },
+    { "start_bag", { "cloth.bag", "~/cloth.bag" }, { "none", "/cloth.bag", "/tmp/a cloth.bag" } },
+    { "start_time", { "-1.0e-300", "-1", "1.0e10" }, { "0", "2.5" } },
     { "rate", { "0", "-1", "9.0e-4", "1000.001" }, { "1000", "0.001" } },
     { "display.fabric_colour", { "[0, 0, 1.01]", "[-0.01, 0, 0]" }, { "[0, 1, 0.5]" } },
   };
@@ -371,6 +374,7 @@ TEST(ParameterTableWords, AreThoseOfTheInterface)
 {
   const std::map<std::string, std::set<std::string>> interface_words = {
     { "cloth.mass_lumping", { "area", "uniform" } },
+    { "strain_limit.solver", { "tensions", "sweeps" } },
     { "cloth.start", { "flat", "catenary", "settled" } },
     { "solver.method",
       { "auto", "explicit_euler", "symplectic_euler", "velocity_verlet", "midpoint", "rk4", "dopri5", "implicit_euler",

@@ -112,7 +112,8 @@ TEST_F(ClothRun, PrintsThePlanAndDoesNotRun)
 TEST_F(ClothRun, AcceptsAndIgnoresWhatOnlyTheNodeUses)
 {
   const std::string node_keys =
-      "rate: 7\nreal_time_factor: 0\nclock_mode: follow\nstart_paused: false\ntf_pins: {top_speed: 2}\nwind_timeout: "
+      "rate: 7\nreal_time_factor: 0\nclock_mode: follow\nstart_paused: false\nstart_bag: /nowhere.bag\ntf_pins: "
+      "{top_speed: 2}\nwind_timeout: "
       "3\n"
       "display: {colouring: strain, fabric_colour: [0, 0, 1]}\n";
   const std::string words = " --duration 0.1 --output /dev/stdout";

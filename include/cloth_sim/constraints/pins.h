@@ -98,6 +98,8 @@ public:
   void impose(double time, Vectors& positions, Vectors& velocities) const;
   /// The velocities alone.
   void impose_velocities(double time, Vectors& velocities) const;
+  /// 1/m of every node, 0 of those that are held, in 1/kg. What `inverse_masses` has beyond is left as it is.
+  void find_inverse_masses(const Eigen::VectorXd& masses, Eigen::VectorXd& inverse_masses) const;
   /// Zeroes the rows of the held nodes: forces and accelerations do not move them.
   void clear_held(Vectors& rows) const;
 

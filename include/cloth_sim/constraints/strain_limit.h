@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "cloth_sim/constraints/pin_reach.h"
 #include "cloth_sim/constraints/pins.h"
 #include "cloth_sim/model/cloth_model.h"
 #include "cloth_sim/model/cloth_state.h"
@@ -9,24 +11,42 @@
 namespace cloth
 {
 
+/// How the springs that are too long are shortened.
+enum class LimitSolver
+{
+  tensions,     ///< the shortest correction, from the tensions of the step before: few passes, whatever the grid
+  plain_sweeps  ///< spring after spring, as Provot describes it: more passes than the grid is wide
+};
+
 struct StrainLimitProperties
 {
   double max_strain = 0.1;  ///< critical deformation rate tau_c; 0: no limit
   int sweeps = 30;          ///< most passes over the springs after a step
+  LimitSolver solver = LimitSolver::tensions;
 };
 
-/// Provot's cure for super-elasticity (1995, section 4): after the positions have moved, every structural and shear
-/// spring whose strain |l|/l0 - 1 is above max_strain is shortened along itself to exactly max_strain. Its ends share
-/// the shift by inverse mass; a pinned end stays. Passes over all springs repeat until none is above, or `sweeps` are
-/// done: batches in the model's order, springs in memory order, every second pass backwards. Velocities follow:
-/// v <- v + (x_corrected - x)/h; without this the method is unstable.
+class Shortening;
+
+/// Provot's cure for super-elasticity (1995, section 4): after the positions have moved, structural and shear springs
+/// whose strain |l|/l0 - 1 is above max_strain are shortened along themselves until none is. Their ends share the shift
+/// by inverse mass; a pinned end stays. Velocities follow: v <- v + (x_corrected - x)/h; without this the method is
+/// unstable. The momentum of what is not pinned stays.
+///
+/// The plain sweeps shorten every spring to exactly max_strain. Tensions shorten to a margin below it, which is at its
+/// least, half a percent of max_strain, while steps need few passes.
 class StrainLimit
 {
 public:
   /// A strain this much above max_strain, relative to it, counts as reached.
-  static constexpr double tolerance = 5e-4;
+  static constexpr double tolerance = 0.02;
+  /// Where tensions hold springs below max_strain, relative to it.
+  static constexpr double least_margin = 0.005;
+  static constexpr double most_margin = 0.15;
 
   StrainLimit(const ClothModel& model, const StrainLimitProperties& properties);
+  StrainLimit(StrainLimit&&) noexcept;
+  StrainLimit& operator=(StrainLimit&&) noexcept;
+  ~StrainLimit();
 
   /// False: max_strain is 0, and `apply` must not be called.
   bool active() const
@@ -36,6 +56,13 @@ public:
   const StrainLimitProperties& properties() const
   {
     return properties_;
+  }
+
+  /// What the pins demanded of the sheet when `apply` was called last. Where that is more than max_strain, the limit is
+  /// raised to 1.05 of it, so that there is a shape that obeys it.
+  const PinReach& reach() const
+  {
+    return reach_;
   }
 
   /// What one call did.
@@ -52,9 +79,16 @@ public:
   Report apply(const ClothModel& model, const Pins& pins, double h, ClothState& state, Vectors* impulses = nullptr);
 
 private:
+  static constexpr double room_of_reach = 1.05;
+
+  void find_reach(const ClothModel& model, const Pins& pins, const Vectors& positions);
+
   StrainLimitProperties properties_;
-  std::vector<double> inverse_masses_;
-  Vectors uncorrected_;
+  std::unique_ptr<Shortening> shortening_;
+  Eigen::VectorXd inverse_masses_;  ///< and room behind the last node
+  PinReach reach_;
+  std::vector<double> held_;  ///< nodes and positions, pin by pin, that reach_ was found for
+  Vectors corrected_;
 };
 
 }  // namespace cloth

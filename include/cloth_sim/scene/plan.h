@@ -5,6 +5,7 @@
 
 #include "cloth_sim/methods/method.h"
 #include "cloth_sim/scene/scene_params.h"
+#include "cloth_sim/scene/scene_start.h"
 #include "cloth_sim/simulation/simulation.h"
 
 namespace cloth
@@ -31,6 +32,9 @@ struct Plan
 /// node in two pins, a start that the scene does not have). A settled start is worked out here.
 Plan make_plan(const SceneParams& scene);
 
+/// The same of a sheet that starts as `start` says, not as the scene does; pins hold their nodes where that has them.
+Plan make_plan(const SceneParams& scene, const SceneStart& start);
+
 /// The simulation of a plan, at time 0.
 Simulation build_simulation(const Plan& plan);
 
@@ -52,5 +56,8 @@ std::string time_step_warning(const Simulation& simulation);
 /// One sentence with the number of steps whose equations the method did not solve to its bound; empty where there are
 /// none.
 std::string convergence_warning(const Simulation& simulation);
+
+/// Which pins are too far apart for the strain limit as they are now, and by how much. Empty: none are.
+std::string reach_warning(const Simulation& simulation);
 
 }  // namespace cloth

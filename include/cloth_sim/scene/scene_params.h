@@ -58,6 +58,8 @@ struct NodeParams
   double real_time_factor = 1.0;  ///< 0: as fast as it can
   std::string clock_mode = "follow";
   bool start_paused = false;
+  std::string start_bag;    ///< a recording to go on from; empty: none
+  double start_time = 0.0;  ///< s from its beginning
   TfPinParams tf_pins;
   double wind_timeout = 0.0;                          ///< s of ROS time; 0: none
   std::string colouring = "fabric";                   ///< fabric or strain
