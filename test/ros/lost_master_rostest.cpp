@@ -6,6 +6,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include "child_process.h"
 #include "listener.h"
@@ -30,6 +31,15 @@ std::string free_port()
   return std::to_string(ntohs(address.sin_port));
 }
 
+bool master_answers(const std::string& port)
+{
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  request[0] = "/cloth_test";
+  XmlRpc::XmlRpcClient client("localhost", std::stoi(port), "/");
+  return client.execute("getPid", request, response);
+}
+
 std::vector<std::string> with_master(const std::string& port, const std::vector<std::string>& command)
 {
   std::vector<std::string> words{ "env", "ROS_MASTER_URI=http://localhost:" + port, "PYTHONUNBUFFERED=1" };
@@ -48,6 +58,8 @@ TEST(LostMaster, TheClothAndWhoListensToItGoOn)
   const std::string port = free_port();
   ChildProcess master({ "rosmaster", "--core", "-p", port });
   ChildProcess node(with_master(port, { CLOTH_NODE, "_rate:=50", "_cloth/rows:=8", "_cloth/cols:=8" }));
+  // Which rostopic, unlike the node, does not wait for.
+  ASSERT_TRUE(wait_until([&] { return master_answers(port); }));
   ChildProcess listener(with_master(port, { "rostopic", "echo", "-p", "/cloth_node/state/sim_time" }));
   ASSERT_TRUE(wait_until([&] { return lines(listener) > 20; })) << listener.output() << node.output();
 
