@@ -97,35 +97,59 @@ private:
     }
   }
 
-  /// Row of nodes by row of nodes, so that a row's springs of all batches are done while it is in the nearest cache.
+  /// Batch by batch, in two colours: springs whose first ends lie in every second stretch of `offset` nodes share no
+  /// node. In another order long steps may be unstable.
   void project(const ClothModel& model, double h)
   {
     in_widest_vectors([&](auto arithmetic) {
-      for (int r = 0; r < model.rows; ++r)
+      for (const SpringBatch& batch : model.springs)
       {
-        for (const SpringBatch& batch : model.springs)
+        for (const int colour : { 0, 1 })
         {
-          for (int done = 0; r < batch.rows && done < batch.cols; done += spring_row_size)
+          for (int r = 0; r < batch.rows; ++r)
           {
-            const int node = batch.first + r * batch.row_stride + done;
-            const int n = std::min(spring_row_size, batch.cols - done);
-            const SpringRow ways(inverse_masses_.data(), ways_, node, batch.offset, n);
-            const SpringRow before(inverse_masses_.data(), before_, node, batch.offset, n);
-            const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h),
-                               compliance_ / (batch.stiffness * h * h), batch.rest_length };
-            in_turns(batch.offset, n, [&](auto&& is_chosen) {
-              RowChanges changes;
-              find_changes<arithmetic.has_fused_multiply_add>(ways, before, gains, is_chosen, changes);
-              move_ends(ways, changes);
-              if (records())
-              {
-                record(changes, node, batch.offset, n, h);
-              }
-            });
+            project_row<arithmetic.has_fused_multiply_add>(batch, r, colour, h);
           }
         }
       }
     });
+  }
+
+  template <bool fused>
+  void project_row(const SpringBatch& batch, int r, int colour, double h)
+  {
+    const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h), compliance_ / (batch.stiffness * h * h),
+                       batch.rest_length };
+    for (int done = 0; done < batch.cols; done += spring_row_size)
+    {
+      const int node = batch.first + r * batch.row_stride + done;
+      const int n = std::min(spring_row_size, batch.cols - done);
+      const auto correct = [&](auto&& is_chosen) {
+        const SpringRow ways(inverse_masses_.data(), ways_, node, batch.offset, n);
+        const SpringRow before(inverse_masses_.data(), before_, node, batch.offset, n);
+        RowChanges changes;
+        find_changes<fused>(ways, before, gains, is_chosen, changes);
+        move_ends(ways, changes);
+        if (records())
+        {
+          record(changes, node, batch.offset, n, h);
+        }
+      };
+      if (batch.offset < n)
+      {
+        // Along a row springs are one or two nodes long.
+        const int bit = batch.offset;
+        correct([=](int k) { return ((node + k) & bit) == colour * bit; });
+        continue;
+      }
+      const int stretch = node / batch.offset;
+      const int next_stretch = (stretch + 1) * batch.offset - node;
+      const bool begins_with_it = stretch % 2 == colour;
+      if (begins_with_it || next_stretch < n)
+      {
+        correct([=](int k) { return (k < next_stretch) == begins_with_it; });
+      }
+    }
   }
 
   struct Gains
