@@ -97,7 +97,7 @@ class OurCloth
 {
 public:
   OurCloth(const LevelSheet& sheet, double time_step)
-    : simulation_(simulation_of(sheet, { max_strain_of_ours, 100 }, "xpbd", time_step))
+    : simulation_(simulation_of(sheet, { max_strain_of_ours, 100, LimitSolver::tensions }, "xpbd", time_step))
   {
   }
 

@@ -22,7 +22,7 @@ struct StrainLimitProperties
 {
   double max_strain = 0.1;  ///< critical deformation rate tau_c; 0: no limit
   int sweeps = 30;          ///< most passes over the springs after a step
-  LimitSolver solver = LimitSolver::tensions;
+  LimitSolver solver = LimitSolver::plain_sweeps;
 };
 
 class Shortening;
