@@ -300,7 +300,7 @@ bool SpringTensions::find_too_long(const Eigen::VectorXd& inverse_masses, const 
       {
         return;
       }
-      const double longest = batch.springs.rest_length * (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance));
+      const double longest = batch.springs.rest_length * (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance_of_tensions));
       if (any_longer(positions, inverse_masses.data(), block.node, batch.springs.offset, block.n, longest * longest))
       {
         batch.is_taut[block.index] = 1;

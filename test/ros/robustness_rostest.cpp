@@ -355,7 +355,7 @@ TEST_F(Robustness, EveryRealTimeFactorTakesTheClothOnByItsShare)
   ledger_.expect_finite_states();
 }
 
-TEST_F(Robustness, DISABLED_OverloadIsCountedAndTheClothGoesOnTickByTick)
+TEST_F(Robustness, OverloadIsCountedAndTheClothGoesOnTickByTick)
 {
   NodeProcess node({ "_rate:=50", "_cloth/rows:=16", "_cloth/cols:=16" });
   ASSERT_TRUE(wait_for_node());
@@ -372,7 +372,7 @@ TEST_F(Robustness, DISABLED_OverloadIsCountedAndTheClothGoesOnTickByTick)
   }
 }
 
-TEST_F(Robustness, DISABLED_AfterAResetOverrunsAreCountedAnewAndNoTickIsLostUncounted)
+TEST_F(Robustness, AfterAResetOverrunsAreCountedAnewAndNoTickIsLostUncounted)
 {
   NodeProcess node({ "_rate:=50", "_cloth/rows:=16", "_cloth/cols:=16" });
   ASSERT_TRUE(wait_for_node());

@@ -37,8 +37,11 @@ class Shortening;
 class StrainLimit
 {
 public:
-  /// A strain this much above max_strain, relative to it, counts as reached.
-  static constexpr double tolerance = 0.02;
+  /// A strain this much above max_strain, relative to it, counts as reached by plain sweeps. What a spring is shortened by
+  /// from there becomes speed, over the step: a larger tolerance throws nodes about in short steps.
+  static constexpr double tolerance = 5e-4;
+  /// And by tensions.
+  static constexpr double tolerance_of_tensions = 0.02;
   /// Where tensions hold springs below max_strain, relative to it.
   static constexpr double least_margin = 0.005;
   static constexpr double most_margin = 0.15;
