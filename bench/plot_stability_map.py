@@ -22,12 +22,17 @@ STABLE = "#dce8f3"
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    methods = read_map(sys.argv[1])
+    draw(sys.argv[1], sys.argv[2])
+
+
+def draw(csv_path, out):
+    """Writes out.png and out.svg."""
+    methods = read_map(csv_path)
     limited = {name: rows for name, rows in methods.items() if is_limited(rows)}
     unlimited = [name for name in methods if name not in limited]
 
     set_style()
-    figure = plt.figure(figsize=(9.0, 7.6), layout="constrained")
+    figure = plt.figure(figsize=(9.0, 7.6), constrained_layout=True)
     grid = figure.add_gridspec(3, 3, height_ratios=[1.0, 1.0, 0.7])
     draw_maps(figure, grid, limited)
     draw_ratios(figure.add_subplot(grid[2, :2]), limited)
@@ -35,7 +40,8 @@ def main():
     for ending in ("png", "svg"):
         # Without date and version the same map gives the same file.
         metadata = {"Date": None, "Creator": None} if ending == "svg" else {"Software": None}
-        figure.savefig("{}.{}".format(sys.argv[2], ending), dpi=150, metadata=metadata)
+        figure.savefig("{}.{}".format(out, ending), dpi=150, metadata=metadata)
+    plt.close(figure)
 
 
 def read_map(path):
@@ -61,6 +67,7 @@ def column(rows, key):
 
 
 def set_style():
+    plt.rcdefaults()
     plt.rcParams.update({
         "font.size": 9,
         "axes.titlesize": 10,
