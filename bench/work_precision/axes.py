@@ -11,6 +11,7 @@ FASTER = "#eef5ea"
 FRONT = "#f6d36b"
 REAL_TIME = "#3d7a2b"
 TOLERANCE = "#b3282d"
+GRID = "#7a5c2e"
 
 
 def draw_work_precision(axes, runs, limits, all_names, error="rms_error", with_spread=False):

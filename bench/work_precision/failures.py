@@ -7,10 +7,12 @@ from matplotlib.ticker import NullFormatter, NullLocator
 from work_precision import solvers, words
 
 MARKERS = {"unstable": "x", "not_converged": "o", "too_slow": ">"}
+GLYPHS = {"unstable": "\N{MULTIPLICATION SIGN}", "not_converged": "\N{WHITE CIRCLE}",
+          "too_slow": "\N{WHITE RIGHT-POINTING TRIANGLE}"}
 
 
 def draw(axes, failed, runs, limits, all_names):
-    """A row a solver, each failure at its cost, and in words the range of its settings."""
+    """A row a solver, each failure at its cost, and in short the range of its settings."""
     names = failing(failed)
     axes.set_xscale("log")
     axes.set_xlim(limits)
@@ -23,11 +25,13 @@ def draw(axes, failed, runs, limits, all_names):
     axes.yaxis.set_major_locator(NullLocator())
     axes.axvline(1.0, color="#3d7a2b", linewidth=1.0)
     for run in failed:
-        axes.plot([within(cost(run, runs), limits)], [names.index(run.solver)],
+        axes.plot([place(run, runs, limits)], [names.index(run.solver)],
                   **marker_style(run.status, solvers.look_up(run.solver, all_names).colour))
     for row, name in enumerate(names):
-        axes.text(1.01, row, in_words([run for run in failed if run.solver == name]), fontsize=7, va="center",
-                  transform=axes.get_yaxis_transform(), color=solvers.look_up(name, all_names).colour)
+        style = {"fontsize": 7, "va": "center", "color": solvers.look_up(name, all_names).colour,
+                 "transform": axes.get_yaxis_transform()}
+        axes.text(-0.01, row, name, ha="right", **style)
+        axes.text(1.01, row, in_short([run for run in failed if run.solver == name]), **style)
 
 
 def failing(failed):
@@ -39,9 +43,10 @@ def marker_style(status, colour):
             "markeredgewidth": 1.3, "linestyle": "none"}
 
 
-def within(own_cost, limits):
-    """On the rim where a cost is not known."""
-    return max(own_cost or 0.0, 1.08 * limits[0])
+def place(run, runs, limits):
+    """Where a cost is not known, on the rim: of what is too slow, the right one."""
+    left, right = 1.08 * limits[0], limits[1] / 1.08
+    return cost(run, runs) or (right if run.status == "too_slow" else left)
 
 
 def cost(run, runs):
@@ -56,11 +61,10 @@ def cost(run, runs):
     return nearest.seconds_per_second * (run.value / nearest.value) ** power
 
 
-def in_words(failed):
+def in_short(failed):
     """Of one solver's: what happened, at which settings."""
-    groups = {}
+    ranges = {}
     for run in failed:
-        groups.setdefault((run.status, run.setting), []).append(run.value)
-    return "{}: {}".format(failed[0].solver, "; ".join(
-        "{} at {}".format(words.STATUS_WORDS[status], words.setting_range(setting, values))
-        for (status, setting), values in sorted(groups.items())))
+        ranges.setdefault(run.status, {}).setdefault(run.setting, []).append(run.value)
+    return "  ".join("{} {}".format(glyph, ", ".join(words.setting_range(*group) for group in sorted(ranges[status].items())))
+                     for status, glyph in GLYPHS.items() if status in ranges)

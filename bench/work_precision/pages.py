@@ -2,7 +2,7 @@
 
 import re
 
-from work_precision import details_page, overview_page, scene_page, spatial_page
+from work_precision import details_page, grid, overview_page, scene_page, spatial_page
 
 
 def draw_all(scenes, runs):
@@ -12,13 +12,12 @@ def draw_all(scenes, runs):
     timed = [scene for scene in accepted if scene.kind != "spatial"]
     for scene in timed:
         own = [run for run in runs if (run.scene, run.kind) == (scene.scene, scene.kind)]
-        yield file_name(scene, scenes), scene_page.draw(scene, own, all_names)
+        yield file_name(scene, scenes), scene_page.draw(scene, own, all_names, grid.error_of_own_grid(scene, runs))
         yield file_name(scene, scenes) + "_details", details_page.draw(scene, own, all_names)
     if any(scene.kind != "spatial" for scene in scenes):
         yield "overview", overview_page.draw([scene for scene in scenes if scene.kind != "spatial"], runs, all_names)
     if any(scene.kind == "spatial" for scene in accepted):
-        yield "spatial_error", spatial_page.draw(
-            [scene for scene in accepted if scene.kind == "spatial"], [run for run in runs if run.kind == "spatial"])
+        yield "spatial_error", spatial_page.draw([scene for scene in accepted if scene.kind == "spatial"], runs)
 
 
 def file_name(scene, scenes):

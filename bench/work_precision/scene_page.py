@@ -5,16 +5,16 @@ import matplotlib.pyplot as plt
 from work_precision import axes as chart
 from work_precision import failures, legend, words
 
-LEFT, WIDTH = 0.075, 0.645  # of the axes, in parts of the figure's width
+LEFT, WIDTH = 0.125, 0.595  # of the axes, in parts of the figure's width
 
 
-def draw(scene, runs, all_names):
+def draw(scene, runs, all_names, grid_error=None):
     failed = [run for run in runs if run.status != "ok"]
     strip = 0.17 * len(failures.failing(failed))  # lengths in inches
     gap = 0.06 if failed else 0.0
     below, chart_height, above = 0.55, 5.2, 0.7
     height = below + chart_height + gap + strip + above
-    figure = plt.figure(figsize=(10.4, height))
+    figure = plt.figure(figsize=(11.0, height))
     figure.text(LEFT, 1.0 - 0.25 / height, title(scene), fontsize=12, va="center")
     figure.text(LEFT, 1.0 - 0.5 / height, subtitle(scene, runs), va="center", color="#555555")
     limits = chart.cost_limits(runs)
@@ -25,13 +25,14 @@ def draw(scene, runs, all_names):
     chart.draw_work_precision(axes, runs, limits, all_names, with_spread=True)
     axes.set_xlabel(chart.COST)
     axes.set_ylabel("RMS error of the positions, m")
-    name_lines(axes, runs, scene)
+    name_lines(axes, runs)
+    mark_what_errors_mean(axes, scene, grid_error)
     legend.add(axes, runs, all_names, loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8.5)
     return figure
 
 
 def title(scene):
-    return scene.scene + (": with strain limit, against its own h to 0" if scene.kind == "limited" else "")
+    return scene.scene + (": with strain limit, against the same rule at h to 0" if scene.kind == "limited" else "")
 
 
 def subtitle(scene, runs):
@@ -43,15 +44,24 @@ def subtitle(scene, runs):
     return ", ".join(parts) + (" ({})".format("; ".join(machines)) if machines else "")
 
 
-def name_lines(axes, runs, scene):
+def name_lines(axes, runs):
     """Where nothing is: nobody is cheap and exact at once."""
-    bottom, top = axes.get_ylim()
-    left, right = axes.get_xlim()
-    axes.text(0.97, bottom * 1.1, "real time", color=chart.REAL_TIME, rotation=90, ha="right", va="bottom", fontsize=8)
+    axes.text(0.97, 1.1 * axes.get_ylim()[0], "real time", color=chart.REAL_TIME, rotation=90, ha="right", va="bottom",
+              fontsize=8)
     for tolerance in chart.tolerances(runs):
-        axes.text(left, tolerance, " tolerance {}".format(words.tolerance(tolerance)), color=chart.TOLERANCE,
-                  ha="left", va="bottom", fontsize=8)
+        name_level(axes, tolerance, "tolerance " + words.tolerance(tolerance), chart.TOLERANCE)
+
+
+def mark_what_errors_mean(axes, scene, grid_error):
+    """Errors far below that of the grid are of no use; those below that of the reference are none."""
+    bottom, top = axes.get_ylim()
+    if grid_error and bottom < grid_error < top:
+        axes.axhline(grid_error, color=chart.GRID, linewidth=1.0, linestyle=(0, (6, 2)))
+        name_level(axes, grid_error, "error of the grid", chart.GRID)
     if scene.reference_error and bottom < scene.reference_error < top:
         axes.axhspan(bottom, scene.reference_error, color="#e2e2e2", linewidth=0, zorder=0.2)
-        axes.text(right, scene.reference_error, "less than the references differ ", color="#555555", ha="right",
-                  va="top", fontsize=8)
+        name_level(axes, scene.reference_error, "the references differ", "#555555")
+
+
+def name_level(axes, error, text, colour):
+    axes.text(axes.get_xlim()[0], error, " " + text, color=colour, ha="left", va="bottom", fontsize=8)

@@ -2,12 +2,17 @@
 
 from collections import Counter
 
-from work_precision import rankings, solvers, words
+from work_precision import grid, rankings, solvers, words
 
 HOW = """\
 Errors are RMS over all nodes against the reference, in metres; costs are seconds of work a simulated second. A method's
 cost at an error is the least at which it stays below: that of a run, or on the straight line, in logarithms, between two
 neighbouring settings of its ladder (marked ~). Costs that differ by less than 20 % count as level."""
+
+
+GRID = """\
+Each grid against the one twice as fine as the finest here, on the same places of the sheet. An error in time that is far
+below it is not worth its cost."""
 
 
 def write_summary(path, scenes, runs, command):
@@ -26,14 +31,16 @@ def sections(scenes, runs, command):
         yield winners_in_words(accepted["trajectory"], runs)
         yield winners_table(accepted["trajectory"], runs)
         for scene in accepted["trajectory"]:
-            yield from scene_section(scene, runs_of(scene, runs))
+            yield from scene_section(scene, runs_of(scene, runs), grid.error_of_own_grid(scene, runs))
     if accepted["limited"]:
-        yield "## With the strain limit, each method against its own h to 0"
+        yield "## With the strain limit, against the same rule at h to 0"
         for scene in accepted["limited"]:
             yield from scene_section(scene, runs_of(scene, runs))
     if accepted["spatial"]:
         yield "## Error of the grid"
-        yield "\n".join(spatial_line(scene, runs_of(scene, runs)) for scene in accepted["spatial"])
+        yield GRID
+
+        yield "\n".join(spatial_line(scene, runs) for scene in accepted["spatial"])
     yield "## Failures"
     yield failures(runs)
     yield "## Scenes that were refused"
@@ -85,23 +92,23 @@ def most_wins(scenes, runs, error):
     if not found:
         return begin + "no run of any scene is that exact."
     wins = Counter(entry.solver for ranking in found for entry in ranking if is_level(entry, ranking[0]))
-    names = solvers.in_order(wins)
-    parts = ["{} in {}".format(name, wins[name]) for name in sorted(names, key=lambda name: -wins[name])]
-    fast = sum(ranking[0].cost < 1.0 for ranking in found)
-    return begin + "cheapest, or level with the cheapest, {} of {} {}; {} faster than real time.".format(
-        words.listed(parts), len(found), "scene" if len(found) == 1 else "scenes", "{} of them".format(fast))
+    names = sorted(solvers.in_order(wins), key=lambda name: -wins[name])
+    parts = ["{} in {}".format(name, wins[name]) for name in names]
+    return begin + "of {} {}, cheapest or level with it is {}; faster than real time in {}.".format(
+        len(found), "scene" if len(found) == 1 else "scenes", words.listed(parts),
+        sum(ranking[0].cost < 1.0 for ranking in found))
 
 
-def scene_section(scene, runs):
+def scene_section(scene, runs, grid_error=None):
     yield "### " + scene.scene
-    yield scene_facts(scene, runs)
+    yield scene_facts(scene, runs, grid_error)
     yield "\n".join(tolerance_line(rankings.ranking(runs, error), error) for error in rankings.TOLERANCES)
     yield ranking_table(runs)
     if any(run.setting == "step" for run in runs):
         yield slope_table(scene, runs)
 
 
-def scene_facts(scene, runs):
+def scene_facts(scene, runs, grid_error):
     facts = []
     nodes = sorted({run.nodes for run in runs if run.nodes})
     if nodes:
@@ -112,6 +119,8 @@ def scene_facts(scene, runs):
         facts.append("the reference is certain to {} m RMS".format(words.rounded(scene.reference_error)))
     if scene.growth is not None:
         facts.append("a disturbance of 1e-9 grew {}".format(words.times(scene.growth)))
+    if grid_error is not None:
+        facts.append("a finer grid is {} m off".format(words.rounded(grid_error)))
     text = "; ".join(facts) + "." if facts else ""
     return (text + " " + sentence(scene.reason)).strip()
 
@@ -202,11 +211,12 @@ def slope_table(scene, runs):
 
 
 def spatial_line(scene, runs):
-    errors = ["{} m at {:.0f}".format(words.rounded(run.rms_error), run.value)
-              for run in sorted(rankings.succeeded(runs), key=lambda run: run.value)]
-    found = rankings.slope(runs)
-    text = "- {}: {} nodes a side".format(scene.scene, ", ".join(errors)) if errors else "- {}: no run".format(scene.scene)
-    return text + ("; order {:.2f}".format(-found.slope) if found else "") + "."
+    found = grid.grids(scene.scene, runs)
+    if not found:
+        return "- {}: no run.".format(scene.scene)
+    errors = ["{} m with {:.0f}".format(words.rounded(run.rms_error), run.value) for run in found]
+    order = grid.order_in_words(found)
+    return "- {}: {} nodes down the sheet{}.".format(scene.scene, ", ".join(errors), "; " + order if order else "")
 
 
 def failures(runs):

@@ -21,7 +21,7 @@ def unit_of(duration):
 
 def seconds(duration):
     factor, unit = unit_of(duration)
-    return "{} {}".format(rounded(factor * duration), unit)
+    return "{} {}".format(rounded(factor * duration, 3), unit)
 
 
 def tolerance(error):
@@ -33,19 +33,35 @@ def setting(name, value):
         return "a step of " + seconds(value)
     if name == "tolerance":
         return "a tolerance of " + rounded(value)
-    if name == "iterations":
-        return "{:.0f} iterations".format(value)
-    return "{:.0f} nodes a side".format(value)
+    return counted(name, "{:.0f}".format(value))
 
 
 def settings(name, values):
     """Several of one ladder, in a row."""
+    if len(values) == 1:
+        return setting(name, values[0])
     if name == "step":
         return "steps of " + listed([seconds(value) for value in values])
     if name == "tolerance":
         return "tolerances of " + listed([rounded(value) for value in values])
-    return "{} {}".format(listed(["{:.0f}".format(value) for value in values]),
-                          {"iterations": "iterations", "nodes_per_side": "nodes a side"}[name])
+    return counted(name, listed(["{:.0f}".format(value) for value in values]))
+
+
+def setting_range(name, values):
+    """The least and the greatest of some values of a ladder, in short."""
+    ends = sorted({min(values), max(values)})
+    if name == "step":
+        factor, unit = unit_of(ends[0])
+        return "{} {}".format(" to ".join(rounded(factor * value) for value in ends), unit)
+    if name == "tolerance":
+        return "tolerance " + " to ".join(rounded(value) for value in ends)
+    return counted(name, " to ".join("{:.0f}".format(value) for value in ends))
+
+
+def counted(name, numbers):
+    if name == "iterations":
+        return "1 iteration" if numbers == "1" else numbers + " iterations"
+    return numbers + " nodes a side"
 
 
 def listed(words):
@@ -54,10 +70,3 @@ def listed(words):
 
 def times(factor):
     return "{} times".format(rounded(factor))
-
-
-def setting_range(name, values):
-    """The least and the greatest of some values of a ladder."""
-    ends = sorted({min(values), max(values)})
-    factor, unit = unit_of(ends[0]) if name == "step" else (1.0, {"iterations": "iterations"}.get(name, ""))
-    return "{} {}".format(" to ".join(rounded(factor * value, 3) for value in ends), unit).strip()

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 import synthetic_runs as synthetic
-from work_precision import rankings, solvers
+from work_precision import grid, rankings, solvers
 from work_precision.runs import read
 
 METHODS_PAGE = os.path.join(os.path.dirname(__file__), "..", "..", "docs", "methods.md")
@@ -96,6 +96,23 @@ class Order(unittest.TestCase):
 
     def test_needs_three_runs(self):
         self.assertIsNone(self.slope([1e-2, 1e-2 / 4]))
+
+
+class Grid(unittest.TestCase):
+    def found(self, rows):
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic.write(folder, [synthetic.scene(kind="spatial")], rows)
+            return grid.grids("sheet", read(folder)[1])
+
+    def test_order_is_that_of_the_law(self):
+        for order in (0.5, 1, 2):
+            self.assertAlmostEqual(grid.order(self.found(synthetic.spatial_runs(order))), order, places=9)
+
+    def test_without_order_is_said_to_be(self):
+        coarse, fine = synthetic.spatial_runs()
+        self.assertEqual(grid.order_in_words(self.found([coarse, dict(fine, rms_error=0.9 * coarse["rms_error"])])),
+                         "no order yet")
+        self.assertEqual(grid.order_in_words(self.found([coarse])), "")
 
 
 class Solvers(unittest.TestCase):

@@ -34,9 +34,9 @@ class Winners(unittest.TestCase):
         # odeint: 5e8 h^5 = 1e-6, 9e-4/h = 0.783.
         self.assertEqual(
             self.line("1e-6 m", synthetic.all_runs()),
-            "- **1e-6 m**: rk4 wins with a step of 0.84 ms, 0.48 s a simulated second, 2.1 times as fast as real time; "
+            "- **1e-6 m**: rk4 wins with a step of 0.841 ms, 0.48 s a simulated second, 2.1 times as fast as real time; "
             "next is velocity_verlet, 2.1 times the cost; "
-            "the best independent solver, odeint_runge_kutta_dopri5 with a step of 1.1 ms, takes 1.6 times the cost.")
+            "the best independent solver, odeint_runge_kutta_dopri5 with a step of 1.15 ms, takes 1.6 times the cost.")
 
     def test_that_are_level_are_said_to_be(self):
         self.assertEqual(
@@ -66,8 +66,8 @@ class Winners(unittest.TestCase):
         rows = [one_run(solver, 1e-2, cost, scene=scene, kind="limited" if scene == "net" else "trajectory")
                 for scene, costs in (("sheet", (0.5, 0.55)), ("flag", (2.0, 4.0)), ("tent", (3.0, 1.0)), ("net", (1.0, 3.0)))
                 for solver, cost in zip(("rk4", "xpbd"), costs)]
-        self.assertIn("- **1e-1 m**: cheapest, or level with the cheapest, rk4 in 2 and xpbd in 2 of 3 scenes; "
-                      "1 of them faster than real time.\n", summary(scenes, rows))
+        self.assertIn("- **1e-1 m**: of 3 scenes, cheapest or level with it is rk4 in 2 and xpbd in 2; "
+                      "faster than real time in 1.\n", summary(scenes, rows))
         self.assertIn("| sheet | rk4, xpbd 0.5 s |", summary(scenes, rows))
 
 
@@ -87,8 +87,8 @@ class Rest(unittest.TestCase):
 
     def test_has_the_order_of_every_law(self):
         text = summary([synthetic.scene()], synthetic.all_runs())
-        self.assertIn("| velocity_verlet | 2 | 2.00 | 7, 0.031 ms to 2 ms |", text)
-        self.assertIn("| tr_bdf2 | 2 | 2.00 | 10, 0.031 ms to 16 ms |", text)
+        self.assertIn("| velocity_verlet | 2 | 2.00 | 7, 0.0312 ms to 2 ms |", text)
+        self.assertIn("| tr_bdf2 | 2 | 2.00 | 10, 0.0312 ms to 16 ms |", text)
         self.assertIn("| explicit_euler | 1 | - | nowhere three in a row on one slope |", text)
 
     def test_lists_every_failure_with_its_settings(self):
@@ -97,7 +97,7 @@ class Rest(unittest.TestCase):
                 synthetic.run("projective", "iterations", 5, status="not_converged")]
         text = summary([synthetic.scene()], rows)
         failures = text[text.index("## Failures"):text.index("## Scenes that were refused")].strip().splitlines()
-        self.assertEqual(failures[4:], ["| sheet | rk4 | too slow | steps of 0.1 us |",
+        self.assertEqual(failures[4:], ["| sheet | rk4 | too slow | a step of 0.1 us |",
                                         "| sheet | rk4 | unstable | steps of 4 ms and 8 ms |",
                                         "| sheet | projective | not converged | 5 iterations |"])
 
@@ -117,7 +117,12 @@ class Rest(unittest.TestCase):
 
     def test_has_the_error_of_the_grid_and_its_order(self):
         text = summary([synthetic.scene(kind="spatial")], synthetic.spatial_runs())
-        self.assertIn("- sheet: 0.078 m at 16, 0.02 m at 32, 0.0049 m at 64 nodes a side; order 2.00.\n", text)
+        self.assertIn("- sheet: 0.073 m with 17, 0.015 m with 33 nodes down the sheet; order 2.0.\n", text)
+
+    def test_says_what_the_own_grid_of_a_scene_costs(self):
+        rows = [one_run("rk4", 1e-3, 1.0, nodes=33 ** 2)] + synthetic.spatial_runs()
+        text = summary([synthetic.scene(), synthetic.scene(kind="spatial")], rows)
+        self.assertIn("; a finer grid is 0.015 m off.", text)
 
 
 if __name__ == "__main__":

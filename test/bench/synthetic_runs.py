@@ -69,9 +69,12 @@ def all_runs(slow=1.0, **fields):
     return rows
 
 
-def spatial_runs(scene="sheet"):
-    return [run("velocity_verlet", "nodes_per_side", side, scene=scene, kind="spatial", rms_error=20.0 / side ** 2,
-                nodes=side ** 2) for side in (16, 32, 64)]
+def spatial_runs(order=2, scene="sheet", cells=16):
+    """Grids of that many cells a side and twice as many, against four times as many."""
+    def error(count):
+        return 20.0 * (count ** -order - (4 * cells) ** -order)
+    return [run("dopri5", "nodes_per_side", count + 1, scene=scene, kind="spatial", rms_error=error(count),
+                nodes=(count + 1) ** 2) for count in (cells, 2 * cells)]
 
 
 def scene(name="sheet", kind="trajectory", accepted="yes", reason=""):
