@@ -33,15 +33,21 @@ def draw_ladders(axes, runs, across, up, all_names):
     """Joins neighbours that both went well. A run that did not converge, but has an error, is drawn hollow."""
     axes.set_xscale("log")
     axes.set_yscale("log")
-    for (name, _), ladder in rankings.ladders(runs).items():
-        solver = solvers.look_up(name, all_names)
+    for (name, setting), ladder in rankings.ladders(runs).items():
+        style = line_style(name, setting, all_names)
         # A gap in the line is where a point is not a number.
         line = [point(run, across, up) if run.status == "ok" else (math.nan, math.nan) for run in ladder]
-        axes.plot(*columns(line), color=solver.colour, linestyle=solvers.LINES[solver.family], marker=solver.marker)
+        axes.plot(*columns(line), **style)
         hollow = [point(run, across, up) for run in ladder if run.status != "ok"]
-        axes.plot(*columns(hollow), color=solver.colour, linestyle="none", marker=solver.marker,
-                  markerfacecolor="white")
+        axes.plot(*columns(hollow), **dict(style, linestyle="none", markerfacecolor="white"))
     set_decades(axes)
+
+
+def line_style(name, setting, all_names):
+    """Thin where a method that has a line over its steps has another one over its iterations."""
+    solver = solvers.look_up(name, all_names)
+    thin = {"linewidth": 0.7, "markersize": 3.5} if setting == "iterations" else {}
+    return dict(color=solver.colour, linestyle=solvers.LINES[solver.family], marker=solver.marker, **thin)
 
 
 def point(run, across, up):

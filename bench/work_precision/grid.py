@@ -4,6 +4,8 @@ import math
 
 from work_precision import rankings
 
+LEAST_ORDER = 0.5  # less is no convergence that one could count on
+
 
 def grids(scene_name, runs):
     """The runs on the grids of a scene, coarsest first."""
@@ -34,4 +36,4 @@ def order_in_words(found):
     if len(found) < 2:
         return ""
     value = order(found)
-    return "no order yet" if value is None else "order {:.1f}".format(value)
+    return "no order yet" if value is None or value < LEAST_ORDER else "order {:.1f}".format(value)

@@ -3,7 +3,7 @@
 from matplotlib.lines import Line2D
 
 from work_precision import failures, rankings, solvers, words
-from work_precision.axes import FRONT
+from work_precision.axes import FRONT, line_style
 
 
 def add(axes, runs, all_names, two_columns=False, with_front=True, **style):
@@ -32,9 +32,8 @@ def family_handles(family, runs, all_names):
 
 
 def solver_handle(name, setting, all_names):
-    solver = solvers.look_up(name, all_names)
-    return Line2D([], [], color=solver.colour, linestyle=solvers.LINES[solver.family], marker=solver.marker,
-                  label=name if setting == "step" else "{}, {}".format(name, setting))
+    return Line2D([], [], label=name if setting == "step" else "{}, {}".format(name, setting),
+                  **line_style(name, setting, all_names))
 
 
 def marks(runs, with_front):

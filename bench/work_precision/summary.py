@@ -127,7 +127,7 @@ def scene_facts(scene, runs, grid_error):
 
 def sentence(text):
     text = text.strip()
-    return text if not text or text.endswith(".") else text + "."
+    return text[:1].upper() + text[1:].rstrip(".") + "." if text else ""
 
 
 def tolerance_line(ranking, error):
@@ -236,6 +236,6 @@ def failures(runs):
 
 
 def refused(scenes):
-    lines = ["- {} ({}): {}".format(scene.scene, scene.kind, sentence(scene.reason) or "no reason is given.")
+    lines = ["- {} ({}): {}".format(scene.scene, scene.kind, sentence(scene.reason) or "No reason is given.")
              for scene in scenes if scene.accepted == "no"]
     return "\n".join(lines) or "None."

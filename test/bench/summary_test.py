@@ -104,7 +104,7 @@ class Rest(unittest.TestCase):
     def test_lists_refused_scenes_with_the_reason(self):
         scenes = [synthetic.scene(), synthetic.scene("flag", accepted="no", reason="the references differ by 3e-4 m")]
         text = summary(scenes, [one_run("rk4", 1e-3, 1.0)])
-        self.assertTrue(text.endswith("- flag (trajectory): the references differ by 3e-4 m.\n"))
+        self.assertTrue(text.endswith("- flag (trajectory): The references differ by 3e-4 m.\n"))
         self.assertNotIn("### flag", text)
 
     def test_has_scenes_with_a_strain_limit_apart(self):
