@@ -3,7 +3,8 @@
 
     bench/plot_work_precision.py CSV_DIR [OUT_DIR] [--command TEXT]
 
-reads runs.csv and scenes.csv (and stability_map.csv, where it is) of CSV_DIR and writes to OUT_DIR (default: CSV_DIR)
+reads runs.csv and scenes.csv (and stability_map.csv, where it is) of CSV_DIR (or of the folder of CSV_DIR/runs.csv, if
+that is given) and writes to OUT_DIR (default: CSV_DIR)
 SCENE.png, SCENE_details.png for each scene, overview.png, spatial_error.png, stability_map.png, each also as .svg, and
 summary.md.
 """
@@ -19,16 +20,17 @@ from work_precision.runs import Malformed, read
 
 def main():
     arguments = parse()
-    out = arguments.out or arguments.csv
+    folder = arguments.csv if os.path.isdir(arguments.csv) else os.path.dirname(arguments.csv)
+    out = arguments.out or folder
     try:
-        scenes, runs = read(arguments.csv)
+        scenes, runs = read(folder)
     except Malformed as error:
         sys.exit("plot_work_precision: {}".format(error))
     os.makedirs(out, exist_ok=True)
     figures.set_style()
     for name, figure in pages.draw_all(scenes, runs):
         figures.save(figure, out, name)
-    stability_map = os.path.join(arguments.csv, "stability_map.csv")
+    stability_map = os.path.join(folder, "stability_map.csv")
     if os.path.exists(stability_map):
         plot_stability_map.draw(stability_map, os.path.join(out, "stability_map"))
     summary.write_summary(os.path.join(out, "summary.md"), scenes, runs, arguments.command)

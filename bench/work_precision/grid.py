@@ -2,7 +2,7 @@
 
 import math
 
-from work_precision import rankings
+from work_precision import rankings, words
 
 LEAST_ORDER = 0.5  # less is no convergence that one could count on
 
@@ -13,11 +13,15 @@ def grids(scene_name, runs):
                   key=lambda run: run.value)
 
 
-def error_of_own_grid(scene, runs):
-    """How far a scene's own grid is from the finest that its motion is compared with, m; None where that is not known."""
+def own_grid(scene, runs):
+    """The run that says how far a scene's own grid is from the finest; None where there is none."""
     nodes = {run.nodes for run in runs if (run.scene, run.kind) == (scene.scene, scene.kind)}
-    errors = [run.rms_error for run in grids(scene.scene, runs) if run.nodes in nodes]
-    return errors[0] if errors and scene.kind == "trajectory" else None
+    found = [run for run in grids(scene.scene, runs) if run.nodes in nodes]
+    return found[0] if found and scene.kind == "trajectory" else None
+
+
+def horizon_in_words(run):
+    return "in {} s".format(words.rounded(run.horizon)) if run.horizon else ""
 
 
 def order(found):

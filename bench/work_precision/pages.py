@@ -12,7 +12,7 @@ def draw_all(scenes, runs):
     timed = [scene for scene in accepted if scene.kind != "spatial"]
     for scene in timed:
         own = [run for run in runs if (run.scene, run.kind) == (scene.scene, scene.kind)]
-        yield file_name(scene, scenes), scene_page.draw(scene, own, all_names, grid.error_of_own_grid(scene, runs))
+        yield file_name(scene, scenes), scene_page.draw(scene, own, all_names, grid.own_grid(scene, runs))
         yield file_name(scene, scenes) + "_details", details_page.draw(scene, own, all_names)
     if any(scene.kind != "spatial" for scene in scenes):
         yield "overview", overview_page.draw([scene for scene in scenes if scene.kind != "spatial"], runs, all_names)

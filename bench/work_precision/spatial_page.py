@@ -22,7 +22,7 @@ def draw(scenes, runs):
         found = grid.grids(scene.scene, runs)
         sides.update(run.value for run in found)
         axes.plot([run.value for run in found], [run.rms_error for run in found], marker=marker, color=colour,
-                  label=", ".join(filter(None, (scene.scene, grid.order_in_words(found)))))
+                  label=label(scene, found))
     chart.set_decades(axes)
     chart.number_between_decades(axes.yaxis)
     axes.xaxis.set_minor_locator(NullLocator())
@@ -30,5 +30,10 @@ def draw(scenes, runs):
     axes.set_xticklabels(["{:.0f}".format(side) for side in sorted(sides)])
     axes.set_xlabel("nodes down the sheet")
     axes.set_ylabel("RMS error of the positions, m")
-    axes.legend(frameon=False)
+    axes.legend(frameon=False, fontsize=8)
     return figure
+
+
+def label(scene, found):
+    horizon = grid.horizon_in_words(found[0]) if found else ""
+    return ", ".join(filter(None, ("{} {}".format(scene.scene, horizon).strip(), grid.order_in_words(found))))

@@ -31,7 +31,7 @@ def sections(scenes, runs, command):
         yield winners_in_words(accepted["trajectory"], runs)
         yield winners_table(accepted["trajectory"], runs)
         for scene in accepted["trajectory"]:
-            yield from scene_section(scene, runs_of(scene, runs), grid.error_of_own_grid(scene, runs))
+            yield from scene_section(scene, runs_of(scene, runs), grid.own_grid(scene, runs))
     if accepted["limited"]:
         yield "## With the strain limit, against the same rule at h to 0"
         for scene in accepted["limited"]:
@@ -99,16 +99,16 @@ def most_wins(scenes, runs, error):
         sum(ranking[0].cost < 1.0 for ranking in found))
 
 
-def scene_section(scene, runs, grid_error=None):
+def scene_section(scene, runs, own_grid=None):
     yield "### " + scene.scene
-    yield scene_facts(scene, runs, grid_error)
+    yield scene_facts(scene, runs, own_grid)
     yield "\n".join(tolerance_line(rankings.ranking(runs, error), error) for error in rankings.TOLERANCES)
     yield ranking_table(runs)
     if any(run.setting == "step" for run in runs):
         yield slope_table(scene, runs)
 
 
-def scene_facts(scene, runs, grid_error):
+def scene_facts(scene, runs, own_grid):
     facts = []
     nodes = sorted({run.nodes for run in runs if run.nodes})
     if nodes:
@@ -119,8 +119,8 @@ def scene_facts(scene, runs, grid_error):
         facts.append("the reference is certain to {} m RMS".format(words.rounded(scene.reference_error)))
     if scene.growth is not None:
         facts.append("a disturbance of 1e-9 grew {}".format(words.times(scene.growth)))
-    if grid_error is not None:
-        facts.append("a finer grid is {} m off".format(words.rounded(grid_error)))
+    if own_grid is not None:
+        facts.append("a finer grid is {} m off {}".format(words.rounded(own_grid.rms_error), grid.horizon_in_words(own_grid)).strip())
     text = "; ".join(facts) + "." if facts else ""
     return (text + " " + sentence(scene.reason)).strip()
 
@@ -137,7 +137,7 @@ def tolerance_line(ranking, error):
         return begin + "no run is that exact."
     ours = [entry for entry in ranking if solvers.is_ours(entry.solver)]
     others = [entry for entry in ranking if not solvers.is_ours(entry.solver)]
-    parts = ([race(ours)] if ours else ["none of our methods gets there"]) + [against(ours, others)]
+    parts = ([race(ours)] if ours else ["none of our methods got there in the time given"]) + [against(ours, others)]
     return begin + "; ".join(part for part in parts if part) + "."
 
 
@@ -151,7 +151,7 @@ def race(entries):
         text += "; {} {} level".format(words.listed([entry.solver for entry in level]), "is" if len(level) == 1 else "are")
     if behind:
         text += "; next is {}, {} the cost".format(behind[0].solver, words.times(behind[0].cost / first.cost))
-    return text + ("" if level or behind else "; no other of ours gets there")
+    return text + ("" if level or behind else "; no other of ours got there in the time given")
 
 
 def speed(entry):
@@ -163,7 +163,7 @@ def speed(entry):
 
 def against(ours, others):
     if not others:
-        return "no independent solver gets there" if ours else ""
+        return "no independent solver got there in the time given" if ours else ""
     other = others[0]
     text = "the best independent solver, {} with {}, ".format(other.solver, words.setting(other.setting, other.value))
     if not ours:
@@ -216,7 +216,8 @@ def spatial_line(scene, runs):
         return "- {}: no run.".format(scene.scene)
     errors = ["{} m with {:.0f}".format(words.rounded(run.rms_error), run.value) for run in found]
     order = grid.order_in_words(found)
-    return "- {}: {} nodes down the sheet{}.".format(scene.scene, ", ".join(errors), "; " + order if order else "")
+    return "- {} {}: {} nodes down the sheet{}.".format(scene.scene, grid.horizon_in_words(found[0]), ", ".join(errors),
+                                                      "; " + order if order else "")
 
 
 def failures(runs):

@@ -45,7 +45,9 @@ class Files(unittest.TestCase):
         with open(os.path.join(cls.folder, "stability_map.csv"), "w", encoding="utf-8") as file:
             file.write(STABILITY_MAP)
         cls.outs = [os.path.join(cls.folder, name) for name in ("first", "second")]
-        cls.done = [plot(cls.folder, out, seed) for seed, out in enumerate(cls.outs)]
+        # The folder, and the file in it.
+        given = [cls.folder, os.path.join(cls.folder, "runs.csv")]
+        cls.done = [plot(path, out, seed) for seed, (path, out) in enumerate(zip(given, cls.outs))]
 
     def text(self, name):
         with open(os.path.join(self.outs[0], name), encoding="utf-8") as file:
@@ -74,7 +76,7 @@ class Files(unittest.TestCase):
         self.assertIn("refused: the references differ", self.text("overview.svg"))
 
     def test_name_the_order_of_the_grid(self):
-        self.assertIn("sheet, order 2.0", self.text("spatial_error.svg"))
+        self.assertIn("sheet in 0.5 s, order 2.0", self.text("spatial_error.svg"))
 
 
 class Malformed(unittest.TestCase):

@@ -49,13 +49,13 @@ class Winners(unittest.TestCase):
         self.assertEqual(
             self.line("1e-2 m", [one_run("rk4", 1e-3, 3.0)]),
             "- **1e-2 m**: rk4 wins with a step of 1 ms, 3 s a simulated second, slower than real time; "
-            "no other of ours gets there; no independent solver gets there.")
+            "no other of ours got there in the time given; no independent solver got there in the time given.")
 
     def test_that_are_independent_are_said_to_be(self):
         rows = [one_run("rk4", 1e-3, 3.0), one_run("cvode_adams", 1e-3, 1.5)]
         self.assertIn("cvode_adams with a step of 1 ms, is cheaper: ours takes 2 times its cost.",
                       self.line("1e-2 m", rows))
-        self.assertIn("none of our methods gets there; the best independent solver, cvode_adams",
+        self.assertIn("none of our methods got there in the time given; the best independent solver, cvode_adams",
                       self.line("1e-2 m", rows[1:]))
 
     def test_are_none_where_nobody_is_so_exact(self):
@@ -117,12 +117,12 @@ class Rest(unittest.TestCase):
 
     def test_has_the_error_of_the_grid_and_its_order(self):
         text = summary([synthetic.scene(kind="spatial")], synthetic.spatial_runs())
-        self.assertIn("- sheet: 0.073 m with 17, 0.015 m with 33 nodes down the sheet; order 2.0.\n", text)
+        self.assertIn("- sheet in 0.5 s: 0.073 m with 17, 0.015 m with 33 nodes down the sheet; order 2.0.\n", text)
 
     def test_says_what_the_own_grid_of_a_scene_costs(self):
         rows = [one_run("rk4", 1e-3, 1.0, nodes=33 ** 2)] + synthetic.spatial_runs()
         text = summary([synthetic.scene(), synthetic.scene(kind="spatial")], rows)
-        self.assertIn("; a finer grid is 0.015 m off.", text)
+        self.assertIn("; a finer grid is 0.015 m off in 0.5 s.", text)
 
 
 if __name__ == "__main__":
