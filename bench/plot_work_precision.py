@@ -3,10 +3,9 @@
 
     bench/plot_work_precision.py CSV_DIR [OUT_DIR] [--command TEXT]
 
-reads runs.csv and scenes.csv (and stability_map.csv, where it is) of CSV_DIR (or of the folder of CSV_DIR/runs.csv, if
-that is given) and writes to OUT_DIR (default: CSV_DIR)
-SCENE.png, SCENE_details.png for each scene, overview.png, spatial_error.png, stability_map.png, each also as .svg, and
-summary.md.
+reads runs.csv and scenes.csv of CSV_DIR, and stability_map.csv where it is there, and writes to OUT_DIR (default:
+CSV_DIR) SCENE.png, SCENE_details.png for each scene, overview.png, spatial_error.png, stability_map.png, each also as
+.svg, and summary.md. CSV_DIR/runs.csv does for CSV_DIR.
 """
 
 import argparse
@@ -20,7 +19,7 @@ from work_precision.runs import Malformed, read
 
 def main():
     arguments = parse()
-    folder = arguments.csv if os.path.isdir(arguments.csv) else os.path.dirname(arguments.csv)
+    folder = os.path.dirname(arguments.csv) or "." if arguments.csv.endswith(".csv") else arguments.csv
     out = arguments.out or folder
     try:
         scenes, runs = read(folder)
