@@ -48,9 +48,8 @@ public:
   }
 
 private:
-  // The spring is 1 m long: a swing that has grown a thousandfold has not turned it over, and is linear. Nor has it
-  // been turned over by where Newton's method begins in the longest step: base positions and velocities of tr_bdf2 are
-  // (0.29 z)^2 of the swing.
+  // The spring is 1 m long: a swing that has grown a thousandfold has not turned it over, and is linear. Nor does
+  // Newton's method begin beyond the pin in the longest step: in tr_bdf2 it begins (0.29 z)^2 of the swing away.
   static constexpr double start = 1e-5;
 
   static SheetProperties sheet(double damping_ratio)

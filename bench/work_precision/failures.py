@@ -54,7 +54,8 @@ def cost(run, runs):
     if run.seconds_per_second:
         return run.seconds_per_second
     power = {"step": -1.0, "iterations": 1.0}.get(run.setting)
-    peers = [peer for peer in runs if (peer.solver, peer.setting) == (run.solver, run.setting) and peer.seconds_per_second]
+    ladder = (run.solver, run.setting)
+    peers = [peer for peer in runs if (peer.solver, peer.setting) == ladder and peer.seconds_per_second]
     if power is None or not peers:
         return None
     nearest = min(peers, key=lambda peer: abs(math.log(peer.value / run.value)))
@@ -66,5 +67,9 @@ def in_short(failed):
     ranges = {}
     for run in failed:
         ranges.setdefault(run.status, {}).setdefault(run.setting, []).append(run.value)
-    return "  ".join("{} {}".format(glyph, ", ".join(words.setting_range(*group) for group in sorted(ranges[status].items())))
-                     for status, glyph in GLYPHS.items() if status in ranges)
+    parts = []
+    for status, glyph in GLYPHS.items():
+        if status in ranges:
+            settings = [words.setting_range(*group) for group in sorted(ranges[status].items())]
+            parts.append("{} {}".format(glyph, ", ".join(settings)))
+    return "  ".join(parts)

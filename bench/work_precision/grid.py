@@ -27,8 +27,8 @@ def horizon_in_words(run):
 def order(found):
     """From the two finest grids, or None where there is only one or where the error shrinks too little to tell.
 
-    With n cells a side and an error C n^-p, a grid differs from that of 4n cells by C (1 - 4^-p) n^-p, and the one of 2n
-    cells by C (2^-p - 4^-p) n^-p. The former is 2^p + 1 times the latter.
+    With n cells a side and an error C n^-p, a grid differs from that of 4n cells by C (1 - 4^-p) n^-p, and the one of
+    2n cells by C (2^-p - 4^-p) n^-p. The former is 2^p + 1 times the latter.
     """
     if len(found) < 2:
         return None

@@ -47,4 +47,5 @@ def draw_scene(axes, scene, runs, limits, all_names):
     failed = [run for run in runs if run.status != "ok"]
     if failed:
         axes.text(0.99, 0.985, "{} of {} runs failed".format(len(failed), len(runs)), transform=axes.transAxes,
-                  ha="right", va="top", fontsize=7, color="#555555", bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0})
+                  ha="right", va="top", fontsize=7, color="#555555",
+                  bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0})

@@ -46,8 +46,10 @@ def read_table(path, row_type, words, texts, needs, check=None):
     try:
         with open(path, newline="", encoding="utf-8") as file:
             return list(rows(file, path, row_type, words, texts, needs, check))
-    except (OSError, UnicodeDecodeError) as error:
-        raise Malformed("{}: {}".format(path, error)) from error
+    except OSError as error:
+        raise Malformed("{}: {}".format(path, error.strerror)) from error
+    except UnicodeDecodeError as error:
+        raise Malformed("{}: is not text in UTF-8".format(path)) from error
 
 
 def rows(file, path, row_type, words, texts, needs, check):

@@ -6,13 +6,12 @@ from work_precision import grid, rankings, solvers, words
 
 HOW = """\
 Errors are RMS over all nodes against the reference, in metres; costs are seconds of work a simulated second. A method's
-cost at an error is the least at which it stays below: that of a run, or on the straight line, in logarithms, between two
-neighbouring settings of its ladder (marked ~). Costs that differ by less than 20 % count as level."""
-
+cost at an error is the least at which it stays below: that of a run, or on the straight line, in logarithms, between
+two neighbouring settings of its ladder (marked ~). Costs that differ by less than 20 % count as level."""
 
 GRID = """\
-Each grid against the one twice as fine as the finest here, on the same places of the sheet. An error in time that is far
-below it is not worth its cost."""
+Each grid against the one twice as fine as the finest here, on the same places of the sheet. An error in time that is
+far below it is not worth its cost."""
 
 
 def write_summary(path, scenes, runs, command):
@@ -120,7 +119,8 @@ def scene_facts(scene, runs, own_grid):
     if scene.growth is not None:
         facts.append("a disturbance of 1e-9 grew {}".format(words.times(scene.growth)))
     if own_grid is not None:
-        facts.append("a finer grid is {} m off {}".format(words.rounded(own_grid.rms_error), grid.horizon_in_words(own_grid)).strip())
+        distance = words.rounded(own_grid.rms_error)
+        facts.append("a finer grid is {} m off {}".format(distance, grid.horizon_in_words(own_grid)).strip())
     text = "; ".join(facts) + "." if facts else ""
     return (text + " " + sentence(scene.reason)).strip()
 
@@ -148,7 +148,8 @@ def race(entries):
     text = "{} {}with {}, {}".format(first.solver, "" if level else "wins ", words.setting(first.setting, first.value),
                                      speed(first))
     if level:
-        text += "; {} {} level".format(words.listed([entry.solver for entry in level]), "is" if len(level) == 1 else "are")
+        names = words.listed([entry.solver for entry in level])
+        text += "; {} {} level".format(names, "is" if len(level) == 1 else "are")
     if behind:
         text += "; next is {}, {} the cost".format(behind[0].solver, words.times(behind[0].cost / first.cost))
     return text + ("" if level or behind else "; no other of ours got there in the time given")

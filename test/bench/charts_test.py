@@ -21,7 +21,12 @@ from work_precision import axes as chart  # noqa: E402
 from work_precision import failures, rankings  # noqa: E402
 
 PROGRAM = os.path.join(os.path.dirname(__file__), "..", "..", "bench", "plot_work_precision.py")
-STABILITY_MAP = "method,zeta,measured,predicted,ratio\nrk4,0,2.83,2.828,1.0007\nrk4,1,2.78,2.785,0.998\nxpbd,0,.inf,.inf,\n"
+STABILITY_MAP = """\
+method,zeta,measured,predicted,ratio
+rk4,0,2.83,2.828,1.0007
+rk4,1,2.78,2.785,0.998
+xpbd,0,.inf,.inf,
+"""
 
 
 def plot(csv_folder, out, seed):

@@ -34,7 +34,8 @@ class Comparison(unittest.TestCase):
     def test_another_order_disagrees(self):
         status, said = compare(runs(rk4=1.0, xpbd=2.0), runs(rk4=2.0, xpbd=1.9))
         self.assertEqual(status, 1)
-        self.assertIn("sheet (trajectory), 1e-1 m: xpbd costs 2 times rk4 in the first run, 0.95 times in the second", said)
+        self.assertIn(
+            "sheet (trajectory), 1e-1 m: xpbd costs 2 times rk4 in the first run, 0.95 times in the second\n", said)
 
     def test_another_order_of_what_is_level_is_no_disagreement(self):
         status, said = compare(runs(rk4=1.0, xpbd=1.1), runs(rk4=1.1, xpbd=1.0))

@@ -64,6 +64,8 @@ class Results(unittest.TextTestResult):
 def main():
     tests = unittest.defaultTestLoader.discover(HERE, pattern="*_test.py", top_level_dir=HERE)
     results = unittest.TextTestRunner(resultclass=Results, stream=sys.stdout).run(tests)
+    for test, reason in results.skipped:
+        print("skipped {}: {}".format(test, reason))
     if len(sys.argv) > 1:
         write(sys.argv[1], list(results.cases.values()))
     return 0 if results.wasSuccessful() and results.testsRun > 0 else 1

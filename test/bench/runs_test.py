@@ -62,7 +62,8 @@ class Reading(unittest.TestCase):
         for text in ("fast", "nan", "inf", "1,5"):
             with self.subTest(text):
                 self.rows[1]["seconds_per_second"] = text
-                self.assert_fault("runs.csv, line 3, column seconds_per_second: '{}' is not a finite number".format(text))
+                self.assert_fault(
+                    "runs.csv, line 3, column seconds_per_second: '{}' is not a finite number".format(text))
 
     def test_names_what_is_allowed(self):
         self.rows[1]["status"] = "fine"

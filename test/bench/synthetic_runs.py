@@ -78,8 +78,8 @@ def spatial_runs(order=2, scene="sheet", cells=16):
 
 
 def scene(name="sheet", kind="trajectory", accepted="yes", reason=""):
-    return {"scene": name, "kind": kind, "accepted": accepted, "horizon": 0.5, "reference_error": 1e-10, "growth": 300.0,
-            "reason": reason}
+    return {"scene": name, "kind": kind, "accepted": accepted, "horizon": 0.5, "reference_error": 1e-10,
+            "growth": 300.0, "reason": reason}
 
 
 def write(folder, scenes, rows):
