@@ -87,13 +87,13 @@ add_dependencies(test_tools cloth_run)
 
 # What makes charts of measurements is tested in Python; without matplotlib the charts themselves are skipped.
 if(CLOTH_SIM_WITH_ROS)
-  set(bench_results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/python-bench.xml)
-  catkin_run_tests_target(python bench python-bench.xml
-    COMMAND "${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/run.py ${bench_results}"
+  set(chart_results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/python-charts.xml)
+  catkin_run_tests_target(python charts python-charts.xml
+    COMMAND "${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/run.py ${chart_results}"
   )
 else()
   find_program(CLOTH_SIM_PYTHON python3)
   if(CLOTH_SIM_PYTHON)
-    add_test(NAME bench COMMAND ${CLOTH_SIM_PYTHON} ${PROJECT_SOURCE_DIR}/test/bench/run.py)
+    add_test(NAME charts COMMAND ${CLOTH_SIM_PYTHON} ${PROJECT_SOURCE_DIR}/test/bench/run.py)
   endif()
 endif()

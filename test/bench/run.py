@@ -74,7 +74,7 @@ def main():
 def write(path, cases):
     def count(tag):
         return str(sum(case.find(tag) is not None for case in cases))
-    suite = xml.Element("testsuite", name="bench", tests=str(len(cases)), failures=count("failure"),
+    suite = xml.Element("testsuite", name="charts", tests=str(len(cases)), failures=count("failure"),
                         errors=count("error"), skipped=count("skipped"))
     suite.extend(cases)
     os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
