@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws the stability map from the CSV that the program stability_map (make stability_map) writes in half a minute:
 
-    stability_map stability_map.csv
-    bench/plot_stability_map.py stability_map.csv docs/images/stability_map
+    stability_map bench/stability_map.csv
+    bench/plot_stability_map.py bench/stability_map.csv docs/images/stability_map
 
 writes docs/images/stability_map.png and .svg.
 """

@@ -3,9 +3,9 @@
 
     bench/plot_work_precision.py CSV_DIR [OUT_DIR] [--command TEXT]
 
-reads runs.csv and scenes.csv of CSV_DIR, and stability_map.csv where it is there, and writes to OUT_DIR (default:
-CSV_DIR) SCENE.png, SCENE_details.png for each scene, overview.png, spatial_error.png, stability_map.png, each also as
-.svg, and summary.md. CSV_DIR/runs.csv does for CSV_DIR.
+reads runs.csv and scenes.csv of CSV_DIR and writes to OUT_DIR (default: CSV_DIR) SCENE.png, SCENE_details.png for each
+scene, overview.png, spatial_error.png, stability_map.png, each also as .svg, and summary.md. CSV_DIR/runs.csv does for
+CSV_DIR. The stability map, which depends on the methods alone, is that of stability_map.csv beside this program.
 """
 
 import argparse
@@ -15,6 +15,8 @@ import sys
 import plot_stability_map
 from work_precision import figures, pages, summary
 from work_precision.runs import Malformed, read
+
+STABILITY_MAP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stability_map.csv")
 
 
 def main():
@@ -29,9 +31,7 @@ def main():
     figures.set_style()
     for name, figure in pages.draw_all(scenes, runs):
         figures.save(figure, out, name)
-    stability_map = os.path.join(folder, "stability_map.csv")
-    if os.path.exists(stability_map):
-        plot_stability_map.draw(stability_map, os.path.join(out, "stability_map"))
+    plot_stability_map.draw(STABILITY_MAP, os.path.join(out, "stability_map"))
     summary.write_summary(os.path.join(out, "summary.md"), scenes, runs, arguments.command)
 
 

@@ -18,15 +18,9 @@ from matplotlib.colors import to_hex  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 
 from work_precision import axes as chart  # noqa: E402
-from work_precision import failures, rankings  # noqa: E402
+from work_precision import failures, rankings, solvers  # noqa: E402
 
 PROGRAM = os.path.join(os.path.dirname(__file__), "..", "..", "bench", "plot_work_precision.py")
-STABILITY_MAP = """\
-method,zeta,measured,predicted,ratio
-rk4,0,2.83,2.828,1.0007
-rk4,1,2.78,2.785,0.998
-xpbd,0,.inf,.inf,
-"""
 
 
 def plot(csv_folder, out, seed):
@@ -47,8 +41,6 @@ class Files(unittest.TestCase):
         rows = synthetic.all_runs() + synthetic.spatial_runs() + list(
             synthetic.runs_by_step("xpbd", synthetic.LAWS["xpbd"], kind="limited"))
         synthetic.write(cls.folder, scenes, rows)
-        with open(os.path.join(cls.folder, "stability_map.csv"), "w", encoding="utf-8") as file:
-            file.write(STABILITY_MAP)
         cls.outs = [os.path.join(cls.folder, name) for name in ("first", "second")]
         # The folder, and the file in it.
         given = [cls.folder, os.path.join(cls.folder, "runs.csv")]
@@ -79,6 +71,11 @@ class Files(unittest.TestCase):
 
     def test_show_what_was_refused(self):
         self.assertIn("refused: the references differ", self.text("overview.svg"))
+
+    def test_have_every_method_in_the_stability_map(self):
+        page = self.text("stability_map.svg")
+        for name in solvers.OURS:
+            self.assertIn(name, page)
 
     def test_name_the_order_of_the_grid(self):
         self.assertIn("sheet in 0.5 s, order 2.0", self.text("spatial_error.svg"))
