@@ -182,10 +182,17 @@ def ranking_table(runs):
     found = [{entry.solver: entry for entry in rankings.ranking(runs, error)} for error in rankings.TOLERANCES]
     lines = ["| s a simulated second | " + " | ".join(words.tolerance(error) for error in rankings.TOLERANCES) + " |",
              "|---" * (len(found) + 1) + "|"]
-    for solver in solvers.in_order(run.solver for run in runs):
-        cells = [cost_cell(entries.get(solver), entries.values()) for entries in found]
-        lines.append("| {} | {} |".format(solver, " | ".join(cells)))
-    return "\n".join(lines)
+    names = solvers.in_order(run.solver for run in runs)
+    nowhere = [name for name in names if not any(name in entries for entries in found)]
+    for name in names:
+        if name not in nowhere:
+            cells = [cost_cell(entries.get(name), entries.values()) for entries in found]
+            lines.append("| {} | {} |".format(name, " | ".join(cells)))
+    return "\n".join(lines + after_table("Not as exact as any of these in the time given", nowhere))
+
+
+def after_table(text, names):
+    return ["", "{}: {}.".format(text, words.listed(names))] if names else []
 
 
 def cost_cell(entry, entries):
@@ -197,18 +204,16 @@ def cost_cell(entry, entries):
 
 def slope_table(scene, runs):
     floor = 10.0 * (scene.reference_error or 0.0)
+    found = {name: rankings.slope(ladder, floor) for (name, setting), ladder in rankings.ladders(runs).items()
+             if setting == "step"}
     lines = ["| order | claimed | measured | steps |", "|---|---|---|---|"]
-    for (name, setting), ladder in rankings.ladders(runs).items():
-        if setting != "step":
-            continue
-        found = rankings.slope(ladder, floor)
-        claimed = solvers.OURS[name].order if name in solvers.OURS else "-"
-        if found:
+    for name, slope in found.items():
+        if slope:
+            claimed = solvers.OURS[name].order if name in solvers.OURS else "-"
             lines.append("| {} | {} | {:.2f} | {}, {} to {} |".format(
-                name, claimed, found.slope, found.points, words.seconds(found.begin), words.seconds(found.end)))
-        else:
-            lines.append("| {} | {} | - | nowhere three in a row on one slope |".format(name, claimed))
-    return "\n".join(lines)
+                name, claimed, slope.slope, slope.points, words.seconds(slope.begin), words.seconds(slope.end)))
+    rest = after_table("Nowhere three steps in a row on one slope", [name for name in found if not found[name]])
+    return "\n".join(lines + rest if len(lines) > 2 else rest[1:])
 
 
 def spatial_line(scene, runs):

@@ -69,4 +69,4 @@ def listed(words):
 
 
 def times(factor):
-    return "{} times".format(rounded(factor))
+    return "{} times".format(rounded(factor, 3 if 0.5 < factor < 2.0 else 2))
