@@ -122,15 +122,16 @@ void ImplicitStage::multiply(const Equation& equation, const Vectors& u, Vectors
 bool ImplicitStage::find_direction(const Equation& equation, StepReport& report)
 {
   constexpr double part = 1e-3;
-  ++report.linear_solves;
-  const auto product_of = [&](const Vectors& u, Vectors& product) { multiply(equation, u, product); };
   const Eigen::VectorXd& masses = equation.dynamics.model().masses;
-  if (uses_multigrid_)
-  {
-    const auto precondition = [&](const Vectors& r, Vectors& z) { multigrid_.apply(r, z); };
-    return linear_solver_.solve(product_of, precondition, masses, residual_, part, direction_);
-  }
-  return linear_solver_.solve(product_of, MassPreconditioner(masses), masses, residual_, part, direction_);
+  const auto multiplied = [&](const Vectors& u, Vectors& product) { multiply(equation, u, product); };
+  const auto by_multigrid = [&](const Vectors& r, Vectors& z) { multigrid_.apply(r, z); };
+  const bool is_solved =
+      uses_multigrid_ ?
+          linear_solver_.solve(multiplied, by_multigrid, masses, residual_, part, direction_) :
+          linear_solver_.solve(multiplied, MassPreconditioner(masses), masses, residual_, part, direction_);
+  ++report.linear_solves;
+  report.linear_iterations += linear_solver_.iterations();
+  return is_solved;
 }
 
 /// Goes along the direction until the residual's component along it has fallen enough; it is a descent direction of the

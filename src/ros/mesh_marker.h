@@ -54,7 +54,7 @@ private:
   Vectors normals_;                           ///< one row a vertex
   std::vector<geometry_msgs::Point> points_;  ///< one a vertex
   std::vector<std_msgs::ColorRGBA> colours_;
-  std::vector<double> strains_;               ///< the worst of each node's structural and shear springs
+  std::vector<double> strains_;  ///< the worst of each node's structural and shear springs
   ReusedMessages<visualization_msgs::Marker> markers_;
 };
 
