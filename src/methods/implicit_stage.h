@@ -40,9 +40,9 @@ public:
 
 private:
   static constexpr int most_iterations = 100;
-  /// Of (s^2 k + s c) / m, summed over a node's springs: from there on multigrid takes less time than conjugate
-  /// gradients need for the 30 iterations and more that it spares.
-  static constexpr double multigrid_from = 100.0;
+  /// Of (s^2 k + s c) / m, summed over a node's springs: from there on multigrid takes less time than the 20
+  /// iterations and more that it spares.
+  static constexpr double multigrid_from = 50.0;
 
   struct Equation
   {
