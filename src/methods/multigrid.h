@@ -58,7 +58,6 @@ private:
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   Eigen::VectorXd masses_;
   std::vector<int> held_;
-  Vectors unbalanced_;
 };
 
 }  // namespace cloth
