@@ -24,8 +24,8 @@ struct StepReport
   int force_evaluations = 0;  ///< or passes over all springs of like cost
   int linear_solves = 0;
   int linear_iterations = 0;  ///< of conjugate gradients, in all solves
-  int rejected_steps = 0;  ///< tried and thrown away because the error estimate was too large
-  bool converged = true;   ///< false: the step's equations were left with a residual above the method's bound
+  int rejected_steps = 0;     ///< tried and thrown away because the error estimate was too large
+  bool converged = true;      ///< false: the step's equations were left with a residual above the method's bound
 };
 
 /// A time-stepping method at work on one cloth.
