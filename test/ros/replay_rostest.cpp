@@ -76,6 +76,7 @@ private:
       words.emplace_back("--loop");
     }
     words.insert(words.end(), bags.begin(), bags.end());
+    words.insert(words.end(), { "--topics", state_topic, topology_topic });
     return words;
   }
 
