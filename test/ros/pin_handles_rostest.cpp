@@ -4,8 +4,6 @@
 #include <Eigen/Core>
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
-#include <std_srvs/SetBool.h>
-#include <std_srvs/Trigger.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
 #include <visualization_msgs/InteractiveMarkerUpdate.h>
@@ -15,6 +13,8 @@
 #include "listener.h"
 #include "pin_message.h"
 #include "state_message.h"
+#include "state_waits.h"
+#include "time_services.h"
 
 namespace cloth
 {
@@ -96,18 +96,7 @@ protected:
       return feedbacks_.getNumSubscribers() > 0 && pins_.getNumSubscribers() > 0 && points_.getNumSubscribers() > 0 &&
              updates_.publishers() > 0 && markers_.publishers() > 0;
     }));
-    std_srvs::Trigger reset;
-    ASSERT_TRUE(ros::service::waitForService("/cloth_node/reset", 20000));
-    ASSERT_TRUE(ros::service::call("/cloth_node/reset", reset));
-    ASSERT_TRUE(state_.wait_for_one(
-        [](const ClothState& state) { return is_pinned(state, still_node) && is_pinned(state, swinging_node); }));
-  }
-
-  static void set_paused(bool paused)
-  {
-    std_srvs::SetBool request;
-    request.request.data = static_cast<std::uint8_t>(paused);
-    ASSERT_TRUE(ros::service::call("/cloth_node/set_paused", request));
+    ASSERT_TRUE(start_over(state_));
   }
 
   /// What rviz sends when a user does `event` with the handle `name`.
@@ -263,13 +252,13 @@ TEST_F(PinHandlesTest, ADragThatFallsSilentIsOver)
 
 TEST_F(PinHandlesTest, AHandleWaitsAtItsGoalWhileTheClothIsPaused)
 {
-  set_paused(true);
+  ASSERT_TRUE(set_paused(true).success);
   const Eigen::Vector3d goal = still_middle(state_.last()) + Eigen::Vector3d(0, 0.1, 0);
   send("still", Feedback::POSE_UPDATE, goal);
   send("still", Feedback::MOUSE_UP, goal);
   EXPECT_TRUE(updates_.wait_for_one([&](const auto& update) { return places(update, "still", goal); }));
   EXPECT_GT((still_middle(state_.last()) - goal).norm(), 0.05);
-  set_paused(false);
+  ASSERT_TRUE(set_paused(false).success);
   EXPECT_TRUE(wait_for_still_at(goal));
 }
 

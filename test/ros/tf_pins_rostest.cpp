@@ -13,6 +13,7 @@
 #include "listener.h"
 #include "pin_message.h"
 #include "state_message.h"
+#include "state_waits.h"
 #include "time_services.h"
 
 namespace cloth
@@ -42,8 +43,7 @@ protected:
     ASSERT_TRUE(wait_until([&] { return pins_.getNumSubscribers() > 0 && state_.publishers() > 0; }));
     constexpr std::uint32_t this_test_and_the_node = 2;
     ASSERT_TRUE(wait_until([&] { return log_.publishers() >= this_test_and_the_node; }));
-    ASSERT_TRUE(trigger("reset").success);
-    ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return is_pinned(state, 0); }));
+    ASSERT_TRUE(start_over(state_));
     frame_ = std::string("gripper_") + testing::UnitTest::GetInstance()->current_test_info()->name();
   }
 
@@ -226,7 +226,7 @@ TEST_F(TfPins, APausedClothFollowsItsFrameWhenItIsStepped)
   ASSERT_TRUE(wait_for_node_at(corner, { -0.5, 0.2, 1.5 }));
   ASSERT_TRUE(set_paused(true).success);
   hold_frame(pose({ -0.5, 0.3, 1.5 }));
-  ASSERT_TRUE(state_.wait_for_more(2));  // one a second
+  ASSERT_TRUE(wait_for_standstill(state_));
   EXPECT_LT((position_of(state_.last(), corner) - Eigen::Vector3d(-0.5, 0.2, 1.5)).norm(), in_float32);
   EXPECT_TRUE(wait_until([&] {
     return trigger("step").success == 1 && std::abs(position_of(state_.last(), corner).y() - 0.3) < in_float32;
@@ -239,7 +239,7 @@ TEST_F(TfPins, AReleasedNodeKeepsTheVelocityThatItsFrameGaveIt)
   constexpr size_t corner = cols - 1;
   attach("right", 0, corner, false);
   ASSERT_TRUE(set_paused(true).success);
-  ASSERT_TRUE(state_.wait_for_more(2));  // what was on its way has come
+  ASSERT_TRUE(wait_for_standstill(state_));
   move_frame(30.0, [](int count) { return pose({ 0.5, count / 30.0, 1.5 }); });
   const auto step = [&] {
     const double time = state_.last().sim_time;

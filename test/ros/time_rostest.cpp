@@ -11,6 +11,7 @@
 #include "listener.h"
 #include "node_process.h"
 #include "pin_message.h"
+#include "state_waits.h"
 #include "time_services.h"
 
 namespace cloth
@@ -69,6 +70,7 @@ TEST_F(Time, APausedClothStandsAndGoesOnFromThere)
   ASSERT_TRUE(set_paused(true).success);
   ASSERT_TRUE(stats_.wait_for_one([](const ClothStats& stats) { return stats.paused; }));
   const auto overruns = stats_.last().overruns;
+  ASSERT_TRUE(wait_for_standstill(state_));
   state_.forget();
   ASSERT_TRUE(state_.wait_for(3));
   EXPECT_TRUE(same_cloth(state_.all()[0], state_.all()[2]));

@@ -10,6 +10,7 @@
 #include "listener.h"
 #include "pin_message.h"
 #include "state_message.h"
+#include "state_waits.h"
 
 namespace cloth
 {
@@ -102,7 +103,7 @@ TEST_F(TwoCloths, OneIsPausedAndResetWithoutTheOther)
 {
   ASSERT_TRUE(left_.states.wait_for_one([](const ClothState& state) { return state.sim_time > 0.0; }));
   ASSERT_TRUE(left_.set_paused(true));
-  ASSERT_TRUE(left_.states.wait_for_more(1));
+  ASSERT_TRUE(wait_for_standstill(left_.states));
   const double paused_at = left_.states.last().sim_time;
   const double later = right_.states.last().sim_time + 0.2;
   ASSERT_TRUE(right_.states.wait_for_one([&](const ClothState& state) { return state.sim_time > later; }));

@@ -9,6 +9,7 @@
 
 #include "listener.h"
 #include "pin_message.h"
+#include "state_waits.h"
 #include "time_services.h"
 
 namespace cloth
@@ -33,8 +34,7 @@ protected:
   void SetUp() override
   {
     ASSERT_TRUE(wait_until([&] { return pins_.getNumSubscribers() > 0 && state_.publishers() > 0; }));
-    ASSERT_TRUE(trigger("reset").success);
-    ASSERT_TRUE(state_.wait_for_more(2));
+    ASSERT_TRUE(start_over(state_));
   }
 
   /// The first wrench on the holder of `pin` for which there is one of `other_pin` at the same time: both.
