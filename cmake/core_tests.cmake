@@ -84,3 +84,16 @@ cloth_add_test(tools
 # cloth_run is tested as a program.
 target_compile_definitions(test_tools PRIVATE CLOTH_RUN="$<TARGET_FILE:cloth_run>")
 add_dependencies(test_tools cloth_run)
+
+# What makes charts of measurements is tested in Python; without matplotlib the charts themselves are skipped.
+if(CLOTH_SIM_WITH_ROS)
+  set(chart_results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/python-charts.xml)
+  catkin_run_tests_target(python charts python-charts.xml
+    COMMAND "${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/run.py ${chart_results}"
+  )
+else()
+  find_program(CLOTH_SIM_PYTHON python3)
+  if(CLOTH_SIM_PYTHON)
+    add_test(NAME charts COMMAND ${CLOTH_SIM_PYTHON} ${PROJECT_SOURCE_DIR}/test/bench/run.py)
+  endif()
+endif()
