@@ -107,6 +107,7 @@ void Simulation::step(double h)
   }
   counters_.force_evaluations += static_cast<std::uint64_t>(report.force_evaluations);
   counters_.linear_solves += static_cast<std::uint64_t>(report.linear_solves);
+  counters_.linear_iterations += static_cast<std::uint64_t>(report.linear_iterations);
   counters_.rejected_steps += static_cast<std::uint64_t>(report.rejected_steps);
   counters_.unconverged_steps += report.converged ? 0 : 1;
   ++counters_.steps;
