@@ -17,7 +17,9 @@ add_library(cloth_ros STATIC
   src/ros/live_keys.cpp
   src/ros/mesh_marker.cpp
   src/ros/messages.cpp
+  src/ros/new_marker.cpp
   src/ros/node_clock.cpp
+  src/ros/node_main.cpp
   src/ros/node_scene.cpp
   src/ros/pin_attachments.cpp
   src/ros/pin_handles.cpp

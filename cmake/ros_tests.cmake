@@ -23,6 +23,11 @@ catkin_add_gtest(test_ros
 target_link_libraries(test_ros cloth_ros ${GTEST_MAIN_LIBRARIES})
 target_include_directories(test_ros PRIVATE test)
 
+# Tests run in the environment that catkin saved when this folder was configured first: without the folders that its set-up
+# leaves out while they are not there, and so without the Python classes of our messages, which rostopic needs.
+file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION})
+safe_execute_process(COMMAND ${GENERATE_ENVIRONMENT_CACHE_COMMAND})
+
 find_package(rosbag REQUIRED)
 find_package(roslaunch REQUIRED)
 find_package(rostest REQUIRED)

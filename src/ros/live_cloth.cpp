@@ -60,6 +60,7 @@ LiveCloth::LiveCloth(const LiveCloth& running, const SceneParams& next)
   if (!simulation.method().is_adaptive && given > simulation.time_step())
   {
     scene.solver.time_step = plan.scene.solver.time_step = simulation.time_step();
+    simulation = simulation_with(plan, running);  // whose step then stays below, also where the limit grows again
   }
 }
 

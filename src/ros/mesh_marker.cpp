@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "conversions.h"
+#include "new_marker.h"
 #include "shading.h"
 
 namespace cloth
@@ -29,12 +30,7 @@ MeshMarker::MeshMarker(const ClothModel& model, const std::string& frame_id, con
   points_.resize(colours_.size());
   strains_.resize(static_cast<size_t>(model.nodes()));
 
-  visualization_msgs::Marker marker;
-  marker.header.frame_id = frame_id;
-  marker.ns = "cloth";
-  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
-  marker.action = visualization_msgs::Marker::ADD;
-  marker.pose.orientation.w = 1.0;
+  visualization_msgs::Marker marker = new_marker(frame_id, "cloth", visualization_msgs::Marker::TRIANGLE_LIST);
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
   marker.color = to_colour(colouring.fabric);
   marker.points.resize(3 * triangles_.size());

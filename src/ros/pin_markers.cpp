@@ -5,6 +5,7 @@
 #include <boost/make_shared.hpp>
 
 #include "conversions.h"
+#include "new_marker.h"
 
 namespace cloth
 {
@@ -57,13 +58,8 @@ bool PinMarkers::shows(const std::vector<Pin>& pins, const Vectors& positions) c
 
 visualization_msgs::Marker PinMarkers::marker_of(const Pin& pin, const Vectors& positions, const ros::Time& stamp) const
 {
-  visualization_msgs::Marker marker;
-  marker.header.frame_id = frame_id_;
+  visualization_msgs::Marker marker = new_marker(frame_id_, pin.name, visualization_msgs::Marker::SPHERE_LIST);
   marker.header.stamp = stamp;
-  marker.ns = pin.name;
-  marker.type = visualization_msgs::Marker::SPHERE_LIST;
-  marker.action = visualization_msgs::Marker::ADD;
-  marker.pose.orientation.w = 1.0;
   marker.scale.x = marker.scale.y = marker.scale.z = diameter_;
   marker.color = to_colour({ 0.98, 0.80, 0.25 });
   for (const int node : pin.nodes)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "conversions.h"
+#include "new_marker.h"
 
 namespace cloth
 {
@@ -26,12 +27,7 @@ Eigen::Vector3d colour_of(SpringKind kind)
 
 SpringMarker::SpringMarker(const ClothModel& model, const std::string& frame_id) : model_(model)
 {
-  visualization_msgs::Marker marker;
-  marker.header.frame_id = frame_id;
-  marker.ns = "springs";
-  marker.type = visualization_msgs::Marker::LINE_LIST;
-  marker.action = visualization_msgs::Marker::ADD;
-  marker.pose.orientation.w = 1.0;
+  visualization_msgs::Marker marker = new_marker(frame_id, "springs", visualization_msgs::Marker::LINE_LIST);
   marker.scale.x = 0.001 * std::max(model.width, model.height);
   marker.color = to_colour(colour_of(SpringKind::structural));
   markers_ = ReusedMessages<visualization_msgs::Marker>(marker);

@@ -8,11 +8,11 @@
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothStats.h"
-#include "cloth_sim/Pin.h"
 
 #include "child_process.h"
 #include "frame_message.h"
 #include "listener.h"
+#include "pin_message.h"
 #include "time_services.h"
 
 namespace cloth
@@ -177,11 +177,7 @@ TEST_F(SimulatedTime, APinGoesOnAfterItsFrameWhenTheClockJumpsBackwards)
 {
   tf2_ros::TransformBroadcaster broadcaster;
   ros::Publisher pins = node_.advertise<cloth_sim::Pin>("/cloth_node/pin", 10, true);
-  cloth_sim::Pin pin;
-  pin.action = cloth_sim::Pin::PIN;
-  pin.name = "left";
-  pin.attach_frame = "gripper";
-  pins.publish(pin);
+  pins.publish(attach_node("left", 0, 0, "gripper", false));
   const auto drive_to = [&](double y, const ros::Time& earliest, const ros::Time& latest) {
     return drive_until([&] {
       const Eigen::Isometry3d place(Eigen::Translation3d(-0.5, y, 1.5));

@@ -60,7 +60,7 @@ TEST(LostMaster, TheClothAndWhoListensToItGoOn)
   ChildProcess node(with_master(port, { CLOTH_NODE, "_rate:=50", "_cloth/rows:=8", "_cloth/cols:=8" }));
   // Which rostopic, unlike the node, does not wait for.
   ASSERT_TRUE(wait_until([&] { return master_answers(port); }));
-  ChildProcess listener(with_master(port, { "rostopic", "echo", "-p", "/cloth_node/mesh/header/seq" }));
+  ChildProcess listener(with_master(port, { "rostopic", "echo", "-p", "/cloth_node/state/sim_time" }));
   ASSERT_TRUE(wait_until([&] { return lines(listener) > 20; })) << listener.output() << node.output();
 
   master.signal(SIGKILL);

@@ -7,11 +7,11 @@
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothStats.h"
-#include "cloth_sim/Pin.h"
 
 #include "frame_message.h"
 #include "listener.h"
 #include "node_process.h"
+#include "pin_message.h"
 #include "time_services.h"
 
 namespace cloth
@@ -98,11 +98,7 @@ TEST_F(MasterClock, APinFollowsItsFrame)
   ASSERT_TRUE(wait_for_node());
   ros::NodeHandle handle;
   ros::Publisher pins = handle.advertise<cloth_sim::Pin>("/cloth_node/pin", 10, true);
-  cloth_sim::Pin pin;
-  pin.action = cloth_sim::Pin::PIN;
-  pin.name = "left";
-  pin.attach_frame = "gripper";
-  pins.publish(pin);
+  pins.publish(attach_node("left", 0, 0, "gripper", false));
   tf2_ros::TransformBroadcaster broadcaster;
   for (const double y : { 0.1, 0.25, 0.2 })
   {

@@ -4,18 +4,17 @@
 #include <Eigen/Core>
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
-#include <std_srvs/SetBool.h>
-#include <std_srvs/Trigger.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
 #include <visualization_msgs/InteractiveMarkerUpdate.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "cloth_sim/ClothState.h"
-#include "cloth_sim/Pin.h"
-
 #include "gripper_frame.h"
 #include "listener.h"
+#include "pin_message.h"
+#include "state_message.h"
+#include "state_waits.h"
+#include "time_services.h"
 
 namespace cloth
 {
@@ -38,20 +37,10 @@ Eigen::Vector3d vector_of(const geometry_msgs::Point& point)
   return { point.x, point.y, point.z };
 }
 
-Eigen::Vector3d position_of(const ClothState& state, size_t node)
-{
-  return { state.positions[3 * node], state.positions[3 * node + 1], state.positions[3 * node + 2] };
-}
-
 /// The middle of the two nodes of the pin `still`.
 Eigen::Vector3d still_middle(const ClothState& state)
 {
   return 0.5 * (position_of(state, still_node) + position_of(state, still_node + 1));
-}
-
-bool pinned(const ClothState& state, size_t node)
-{
-  return (state.flags[node] & ClothState::PINNED) != 0;
 }
 
 bool shows_new(const InteractiveMarkerUpdate& update, const std::string& name)
@@ -107,18 +96,7 @@ protected:
       return feedbacks_.getNumSubscribers() > 0 && pins_.getNumSubscribers() > 0 && points_.getNumSubscribers() > 0 &&
              updates_.publishers() > 0 && markers_.publishers() > 0;
     }));
-    std_srvs::Trigger reset;
-    ASSERT_TRUE(ros::service::waitForService("/cloth_node/reset", 20000));
-    ASSERT_TRUE(ros::service::call("/cloth_node/reset", reset));
-    ASSERT_TRUE(state_.wait_for_one(
-        [](const ClothState& state) { return pinned(state, still_node) && pinned(state, swinging_node); }));
-  }
-
-  static void set_paused(bool paused)
-  {
-    std_srvs::SetBool request;
-    request.request.data = static_cast<std::uint8_t>(paused);
-    ASSERT_TRUE(ros::service::call("/cloth_node/set_paused", request));
+    ASSERT_TRUE(start_over(state_));
   }
 
   /// What rviz sends when a user does `event` with the handle `name`.
@@ -137,17 +115,6 @@ protected:
     feedback.pose.orientation.w = 1.0;
     feedback.menu_entry_id = menu_entry;
     feedbacks_.publish(feedback);
-  }
-
-  void pin(const std::string& name, std::uint32_t row, std::uint32_t col)
-  {
-    PinMessage message;
-    message.action = PinMessage::PIN;
-    message.select = PinMessage::NODE;
-    message.name = name;
-    message.row = row;
-    message.col = col;
-    pins_.publish(message);
   }
 
   void click(const Eigen::Vector3d& point, const std::string& frame)
@@ -204,7 +171,7 @@ TEST_F(PinHandlesTest, DraggingAHandleMovesThePin)
     const auto& all = markers_.all();
     return std::any_of(all.begin(), all.end(), [&](const auto& one) { return shows_pin_at(one, "still", second); });
   }));
-  EXPECT_TRUE(pinned(state_.last(), still_node));
+  EXPECT_TRUE(is_pinned(state_.last(), still_node));
 }
 
 TEST_F(PinHandlesTest, AMouseOfAnotherFrame)
@@ -218,17 +185,14 @@ TEST_F(PinHandlesTest, TheMenuReleasesOnePinOrAll)
 {
   send("still", Feedback::MENU_SELECT, { 0, 0, 0 }, "world", 1);
   ASSERT_TRUE(updates_.wait_for_one([](const auto& update) { return erases(update, "still"); }));
-  ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return !pinned(state, still_node); }));
-  EXPECT_TRUE(pinned(state_.last(), swinging_node));
-  pin("another", 4, 4);
+  ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return !is_pinned(state, still_node); }));
+  EXPECT_TRUE(is_pinned(state_.last(), swinging_node));
+  pins_.publish(pin_node("another", 4, 4));
   ASSERT_TRUE(updates_.wait_for_one([](const auto& update) { return shows_new(update, "another"); }));
   send("swinging", Feedback::MENU_SELECT, { 0, 0, 0 }, "world", 2);
   ASSERT_TRUE(updates_.wait_for_one(
       [](const auto& update) { return erases(update, "swinging") && erases(update, "another"); }));
-  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) {
-    return std::none_of(state.flags.begin(), state.flags.end(),
-                        [](std::uint8_t flags) { return (flags & ClothState::PINNED) != 0; });
-  }));
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 0; }));
 }
 
 TEST_F(PinHandlesTest, AHandleFollowsItsPin)
@@ -239,11 +203,7 @@ TEST_F(PinHandlesTest, AHandleFollowsItsPin)
     const auto* const pose = pose_in(update, "swinging");
     return pose != nullptr && std::abs(pose->pose.position.y - y) > 0.05;
   }));
-  PinMessage move;
-  move.action = PinMessage::MOVE;
-  move.name = "still";
-  move.point.point.z = 1.25;
-  pins_.publish(move);
+  pins_.publish(move_pin("still", { 0, 0, 1.25 }));
   EXPECT_TRUE(updates_.wait_for_one([](const auto& update) { return places(update, "still", { 0, 0, 1.25 }); }));
 }
 
@@ -292,13 +252,13 @@ TEST_F(PinHandlesTest, ADragThatFallsSilentIsOver)
 
 TEST_F(PinHandlesTest, AHandleWaitsAtItsGoalWhileTheClothIsPaused)
 {
-  set_paused(true);
+  ASSERT_TRUE(set_paused(true).success);
   const Eigen::Vector3d goal = still_middle(state_.last()) + Eigen::Vector3d(0, 0.1, 0);
   send("still", Feedback::POSE_UPDATE, goal);
   send("still", Feedback::MOUSE_UP, goal);
   EXPECT_TRUE(updates_.wait_for_one([&](const auto& update) { return places(update, "still", goal); }));
   EXPECT_GT((still_middle(state_.last()) - goal).norm(), 0.05);
-  set_paused(false);
+  ASSERT_TRUE(set_paused(false).success);
   EXPECT_TRUE(wait_for_still_at(goal));
 }
 
@@ -309,7 +269,7 @@ TEST_F(PinHandlesTest, AClickedPointPinsTheNodeNearestToIt)
   // The frame's x is the world's y, its y the world's -x: it stands at (0, 0.5, 1).
   click({ place.y() - 0.5, -place.x() + 0.02, place.z() - 1.0 - 0.02 }, "gripper");
   EXPECT_TRUE(updates_.wait_for_one([](const auto& update) { return shows_new(update, "pin_8_0"); }));
-  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned(state, corner); }));
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return is_pinned(state, corner); }));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -17,6 +18,7 @@
 #include "cloth_sim/ClothTopology.h"
 
 #include "child_process.h"
+#include "launch.h"
 #include "listener.h"
 #include "messages.h"
 #include "node_process.h"
@@ -74,6 +76,7 @@ private:
       words.emplace_back("--loop");
     }
     words.insert(words.end(), bags.begin(), bags.end());
+    words.insert(words.end(), { "--topics", state_topic, topology_topic });
     return words;
   }
 
@@ -216,19 +219,19 @@ int expect_same_lines(const std::deque<Marker>& live, const std::deque<Marker>& 
 class RoundTrip : public testing::Test
 {
 protected:
-  void record(const std::string& file)
+  ~RoundTrip() override
+  {
+    ros::param::del("/use_sim_time");  // which replay.launch sets
+  }
+
+  void record(const std::string& file, const std::string& options, const std::function<bool()>& recorded_enough)
   {
     NodeProcess node({ "_rate:=50", "_cloth/rows:=8", "_cloth/cols:=6", "_cloth/height:=0.7", "_frame_id:=stage" });
     Listener<Marker> springs("/cloth_node/springs");
     Listener<MarkerArray> pins("/cloth_node/pins");
-    ChildProcess recorder({ "rosbag", "record", "--quiet", "--lz4", "--chunksize=1", "--output-name=" + file,
-                            state_topic, topology_topic });
-    const auto recorded_enough = [&] {
-      return std::ifstream(file + ".active", std::ios::ate | std::ios::binary).tellg() > 40000;
-    };
+    Launch recorder({ "record.launch", "bag:=" + file, "options:=" + options });
     ASSERT_TRUE(wait_until(recorded_enough)) << recorder.output();
-    recorder.signal(SIGINT);
-    ASSERT_TRUE(ends(recorder)) << recorder.output();
+    recorder.end();
     node.signal(SIGINT);
     ASSERT_TRUE(node.wait_for_end());
     ASSERT_TRUE(wait_until([&] { return springs.publishers() + pins.publishers() == 0; }));
@@ -243,8 +246,9 @@ protected:
 
 TEST_F(RoundTrip, ShowsWhatTheLiveNodeShowed)
 {
-  const std::string file = folder_.file("cloth.bag");
-  record(file);
+  const std::string file = folder_.file("a cloth.bag");
+  record(file, "--chunksize=1",
+         [&] { return std::ifstream(file + ".active", std::ios::ate | std::ios::binary).tellg() > 40000; });
   ASSERT_FALSE(HasFatalFailure());
   const auto states = read<ClothState>(file, state_topic);
   const auto topologies = read<ClothTopology>(file, topology_topic);
@@ -283,6 +287,21 @@ TEST_F(RoundTrip, ShowsWhatTheLiveNodeShowed)
   EXPECT_EQ(pins.last().markers[0].type, live_pin.type);
   EXPECT_EQ(pins.last().markers[0].color, live_pin.color);
   EXPECT_NEAR(pins.last().markers[0].scale.x, live_pin.scale.x, 1e-7);
+}
+
+TEST_F(RoundTrip, EachFileOfASplitRecordingIsShownAlone)
+{
+  const std::string later = folder_.file("a cloth_1.bag");
+  record(folder_.file("a cloth.bag"), "--split --duration=1", [&] { return std::ifstream(later).good(); });
+  ASSERT_FALSE(HasFatalFailure());
+  const auto states = read<ClothState>(later, state_topic);
+  ASSERT_FALSE(states.empty());
+
+  Listener<Marker> mesh("/cloth_replay/mesh");
+  const Launch player({ "replay.launch", "rviz:=false", "bag:=" + folder_.file("a\\ cloth_1.bag") });
+  EXPECT_TRUE(mesh.wait_for_one([&](const Marker& marker) {
+    return marker.header.stamp == states.back()->header.stamp;
+  })) << player.output();
 }
 
 /// A running replay, and what it shows.

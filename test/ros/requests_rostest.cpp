@@ -9,11 +9,10 @@
 #include <rosgraph_msgs/Log.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "cloth_sim/ClothState.h"
-#include "cloth_sim/Pin.h"
-
 #include "gripper_frame.h"
 #include "listener.h"
+#include "pin_message.h"
+#include "state_message.h"
 
 namespace cloth
 {
@@ -32,34 +31,9 @@ size_t node_at(int row, int col)
   return static_cast<size_t>(row * cols + col);
 }
 
-Eigen::Vector3d position_of(const ClothState& state, size_t node)
-{
-  return { state.positions[3 * node], state.positions[3 * node + 1], state.positions[3 * node + 2] };
-}
-
 double mean_y(const ClothState& state)
 {
-  double sum = 0.0;
-  for (size_t node = 0; node < state.flags.size(); ++node)
-  {
-    sum += position_of(state, node).y();
-  }
-  return sum / static_cast<double>(state.flags.size());
-}
-
-bool pinned(const ClothState& state, size_t node)
-{
-  return (state.flags[node] & ClothState::PINNED) != 0;
-}
-
-size_t pinned_nodes(const ClothState& state)
-{
-  size_t count = 0;
-  for (size_t node = 0; node < state.flags.size(); ++node)
-  {
-    count += pinned(state, node) ? 1 : 0;
-  }
-  return count;
+  return mean_position(state).y();
 }
 
 /// A running node with its two upper corners pinned, still air, and a frame `gripper` half a metre in front of the
@@ -77,44 +51,11 @@ protected:
     ASSERT_TRUE(wait_until([&] { return pins_.getNumSubscribers() > 0 && winds_.getNumSubscribers() > 0; }));
     constexpr std::uint32_t this_test_and_the_node = 2;
     ASSERT_TRUE(wait_until([&] { return log_.publishers() >= this_test_and_the_node; }));
-    pins_.publish(release(""));
+    pins_.publish(release_pin(""));
     ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 0; }));
-    pins_.publish(pin("left", 0, 0));
-    pins_.publish(pin("right", 0, cols - 1));
+    pins_.publish(pin_node("left", 0, 0));
+    pins_.publish(pin_node("right", 0, cols - 1));
     ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 2; }));
-  }
-
-  static PinMessage pin(const std::string& name, int row, int col)
-  {
-    PinMessage message;
-    message.action = PinMessage::PIN;
-    message.select = PinMessage::NODE;
-    message.name = name;
-    message.row = static_cast<std::uint32_t>(row);
-    message.col = static_cast<std::uint32_t>(col);
-    return message;
-  }
-
-  static PinMessage release(const std::string& name)
-  {
-    PinMessage message;
-    message.action = PinMessage::RELEASE;
-    message.name = name;
-    return message;
-  }
-
-  static PinMessage at_point(std::uint8_t action, const std::string& name, const Eigen::Vector3d& point,
-                             const std::string& frame = "")
-  {
-    PinMessage message;
-    message.action = action;
-    message.select = PinMessage::NEAREST;
-    message.name = name;
-    message.point.header.frame_id = frame;
-    message.point.point.x = point.x();
-    message.point.point.y = point.y();
-    message.point.point.z = point.z();
-    return message;
   }
 
   static geometry_msgs::Vector3Stamped wind(const Eigen::Vector3d& velocity, const std::string& frame = "")
@@ -129,7 +70,7 @@ protected:
 
   bool wait_for_pinned(size_t node)
   {
-    return state_.wait_for_one([=](const ClothState& state) { return pinned(state, node); });
+    return state_.wait_for_one([=](const ClothState& state) { return is_pinned(state, node); });
   }
 
   /// Waits until `condition` has held for two seconds of simulated time: longer than a swing takes.
@@ -182,7 +123,7 @@ protected:
 TEST_F(Requests, APinHoldsANodeWhereItIs)
 {
   const size_t corner = node_at(rows - 1, 0);
-  pins_.publish(pin("corner", rows - 1, 0));
+  pins_.publish(pin_node("corner", rows - 1, 0));
   ASSERT_TRUE(wait_for_pinned(corner));
   const Eigen::Vector3d held = position_of(state_.last(), corner);
   ASSERT_TRUE(state_.wait_for_more(10));
@@ -191,16 +132,16 @@ TEST_F(Requests, APinHoldsANodeWhereItIs)
 
 TEST_F(Requests, APinWithoutANameIsCalledByItsNode)
 {
-  pins_.publish(pin("", 3, 4));
+  pins_.publish(pin_node("", 3, 4));
   ASSERT_TRUE(wait_for_pinned(node_at(3, 4)));
-  pins_.publish(release("pin_3_4"));
-  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return !pinned(state, node_at(3, 4)); }));
+  pins_.publish(release_pin("pin_3_4"));
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return !is_pinned(state, node_at(3, 4)); }));
 }
 
 TEST_F(Requests, AReleasedNodeFallsAndItsMarkerGoes)
 {
-  pins_.publish(release("left"));
-  ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return !pinned(state, 0); }));
+  pins_.publish(release_pin("left"));
+  ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return !is_pinned(state, 0); }));
   const double height = position_of(state_.last(), 0).z();
   EXPECT_TRUE(state_.wait_for_one([=](const ClothState& state) { return position_of(state, 0).z() < height - 0.01; }));
   EXPECT_TRUE(wait_until([&] {
@@ -219,24 +160,24 @@ TEST_F(Requests, AReleasedNodeFallsAndItsMarkerGoes)
 TEST_F(Requests, APinIsMovedToAPointOfAnotherFrame)
 {
   const size_t corner = node_at(rows - 1, cols - 1);
-  pins_.publish(pin("corner", rows - 1, cols - 1));
+  pins_.publish(pin_node("corner", rows - 1, cols - 1));
   ASSERT_TRUE(wait_for_pinned(corner));
   // The frame's x is the world's y, its y the world's -x: it stands at (0, 0.5, 1).
-  pins_.publish(at_point(PinMessage::MOVE, "corner", { -0.2, -0.3, 0.05 }, "gripper"));
+  pins_.publish(move_pin("corner", { -0.2, -0.3, 0.05 }, "gripper"));
   const Eigen::Vector3d target(0.3, 0.3, 1.05);
   EXPECT_TRUE(state_.wait_for_one(
       [=](const ClothState& state) { return (position_of(state, corner) - target).norm() < 1e-6; }));
-  EXPECT_TRUE(pinned(state_.last(), corner));
+  EXPECT_TRUE(is_pinned(state_.last(), corner));
 }
 
 TEST_F(Requests, TheNodeNearestToAPoint)
 {
   const Eigen::Vector3d point = position_of(state_.last(), node_at(4, 4));
-  pins_.publish(at_point(PinMessage::PIN, "nearest", point, "world"));
+  pins_.publish(pin_nearest("nearest", point, "world"));
   ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 3; }));
   for (size_t node = 1; node < state_.last().flags.size(); ++node)
   {
-    if (pinned(state_.last(), node) && node != cols - 1)
+    if (is_pinned(state_.last(), node) && node != cols - 1)
     {
       EXPECT_LT((position_of(state_.last(), node) - point).norm(), 0.125) << "node " << node;
     }
@@ -245,10 +186,7 @@ TEST_F(Requests, TheNodeNearestToAPoint)
 
 TEST_F(Requests, EveryNodeWithinARadius)
 {
-  PinMessage message = at_point(PinMessage::PIN, "all", { 0, 0, 1 });
-  message.select = PinMessage::RADIUS;
-  message.radius = 100.0;
-  pins_.publish(message);
+  pins_.publish(pin_within("all", { 0, 0, 1 }, 100.0));
   EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned_nodes(state) == 1u * rows * cols; }));
 }
 
@@ -285,18 +223,16 @@ TEST_F(Requests, WindInAFrameThatTfDoesNotKnowIsRefused)
 
 TEST_F(Requests, PinsThatMakeNoSenseAreRefused)
 {
-  expect_refused(pin("a", rows, 0), "row 9, col 0");
-  expect_refused(pin("a", 0, -1), "col 4294967295");
-  expect_refused(pin("a b", 1, 1), "name is a b");
-  expect_refused(pin("/a", 1, 1), "name is /a");
-  expect_refused(release("nobody"), "name 'nobody'");
-  expect_refused(at_point(PinMessage::MOVE, "somebody", { 0, 0, 0 }), "name 'somebody'");
-  expect_refused(at_point(PinMessage::MOVE, "left", { nan, 0, 0 }), "point is not finite");
-  expect_refused(at_point(PinMessage::PIN, "a", { 0, 0, 0 }, "elsewhere"), "frame 'elsewhere'");
+  expect_refused(pin_node("a", rows, 0), "row 9, col 0");
+  expect_refused(pin_node("a", 0, -1), "col 4294967295");
+  expect_refused(pin_node("a b", 1, 1), "name is a b");
+  expect_refused(pin_node("/a", 1, 1), "name is /a");
+  expect_refused(release_pin("nobody"), "name 'nobody'");
+  expect_refused(move_pin("somebody", { 0, 0, 0 }), "name 'somebody'");
+  expect_refused(move_pin("left", { nan, 0, 0 }), "point is not finite");
+  expect_refused(pin_nearest("a", { 0, 0, 0 }, "elsewhere"), "frame 'elsewhere'");
 
-  PinMessage message = at_point(PinMessage::PIN, "a", { 0, 0, 9 });
-  message.select = PinMessage::RADIUS;
-  message.radius = 0.1;
+  PinMessage message = pin_within("a", { 0, 0, 9 }, 0.1);
   expect_refused(message, "no node lies within");
   message.radius = nan;
   expect_refused(message, "radius is nan");
@@ -304,9 +240,7 @@ TEST_F(Requests, PinsThatMakeNoSenseAreRefused)
   expect_refused(message, "select is 7");
   message.action = 8;
   expect_refused(message, "action is 8");
-  message = pin("a", 1, 1);
-  message.attach_frame = "/gripper";
-  expect_refused(message, "attach_frame is '/gripper'");
+  expect_refused(attach_node("a", 1, 1, "/gripper", false), "attach_frame is '/gripper'");
 }
 
 }  // namespace

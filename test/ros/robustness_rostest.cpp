@@ -11,10 +11,10 @@
 #include <ros/rate.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 
-#include "cloth_sim/Pin.h"
-
 #include "node_process.h"
+#include "pin_message.h"
 #include "stalled_listener.h"
+#include "state_message.h"
 #include "tick_ledger.h"
 #include "time_services.h"
 #include "tuning_client.h"
@@ -43,31 +43,6 @@ Vector3Stamped wind(double x, double y, double z, const std::string& frame = "")
   message.vector.y = y;
   message.vector.z = z;
   return message;
-}
-
-PinMessage pin(std::uint8_t action, const std::string& name, int row = 0, int col = 0)
-{
-  PinMessage message;
-  message.action = action;
-  message.name = name;
-  message.row = static_cast<std::uint32_t>(row);
-  message.col = static_cast<std::uint32_t>(col);
-  return message;
-}
-
-PinMessage pin_at(std::uint8_t action, const std::string& name, double x, double y, double z)
-{
-  PinMessage message = pin(action, name);
-  message.select = PinMessage::NEAREST;
-  message.point.point.x = x;
-  message.point.point.y = y;
-  message.point.point.z = z;
-  return message;
-}
-
-size_t pinned_nodes(const ClothState& state)
-{
-  return static_cast<size_t>(std::count(state.flags.begin(), state.flags.end(), ClothState::PINNED));
 }
 
 /// Whatever has been asked for: back to a cloth that any computer is fast enough for.
@@ -111,12 +86,12 @@ public:
     switch (integer(0, 5))
     {
       case 0:
-        return pin(PinMessage::RELEASE, name);
+        return release_pin(name);
       case 1:
       case 2:
-        return pin_at(PinMessage::MOVE, name, x, number(-0.05, 0.05), z);
+        return move_pin(name, { x, number(-0.05, 0.05), z });
       default:
-        return pin(PinMessage::PIN, name, row, col);
+        return pin_node(name, static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(col));
     }
   }
 
@@ -194,7 +169,7 @@ protected:
   /// Waits until what was sent is there, and a tick after it.
   bool wait_for_marked_tick()
   {
-    pins_.publish(pin(PinMessage::PIN, "mark", size - 1, size / 2));
+    pins_.publish(pin_node("mark", size - 1, size / 2));
     const size_t mark = (size - 1) * size + size / 2;
     return ledger_.states().wait_for_one([=](const ClothState& state) { return state.flags[mark] != 0; });
   }
@@ -270,7 +245,7 @@ TEST_F(Robustness, AFloodOfWindAndPinsLosesNoTickUncounted)
   winds_.publish(wind(0, 0, 0));
   // Again and again: the node refuses a pin where a thousand wait.
   ASSERT_TRUE(wait_until([&] {
-    pins_.publish(pin(PinMessage::RELEASE, ""));
+    pins_.publish(release_pin(""));
     return pinned_nodes(ledger_.states().last()) == 0;
   }));
   EXPECT_EQ(node.output().find("diverged"), std::string::npos) << node.output();
@@ -290,12 +265,9 @@ TEST_F(Robustness, EmptyHugeAndNotFiniteFieldsChangeNothing)
   {
     winds_.publish(wind(bad, 0, 0));
     winds_.publish(wind(0, bad, bad));
-    pins_.publish(pin_at(PinMessage::PIN, "a", bad, 0, 0));
-    pins_.publish(pin_at(PinMessage::MOVE, "left", 0, bad, 0));
-    PinMessage within = pin_at(PinMessage::PIN, "a", 0, 0, 9);
-    within.select = PinMessage::RADIUS;
-    within.radius = bad > 0.0 ? -1.0 : bad;
-    pins_.publish(within);
+    pins_.publish(pin_nearest("a", { bad, 0, 0 }));
+    pins_.publish(move_pin("left", { 0, bad, 0 }));
+    pins_.publish(pin_within("a", { 0, 0, 9 }, bad > 0.0 ? -1.0 : bad));
     geometry_msgs::PointStamped point;
     point.point.z = bad;
     points_.publish(point);
@@ -306,11 +278,14 @@ TEST_F(Robustness, EmptyHugeAndNotFiniteFieldsChangeNothing)
     feedback_.publish(drag);
   }
   winds_.publish(wind(1, 1, 1, huge));
-  pins_.publish(pin(PinMessage::PIN, huge, 1, 1));
-  pins_.publish(pin(PinMessage::RELEASE, huge));
-  pins_.publish(pin(PinMessage::MOVE, ""));
-  pins_.publish(pin(PinMessage::PIN, "a", std::numeric_limits<int>::max(), std::numeric_limits<int>::max()));
-  pins_.publish(pin(255, "a"));
+  pins_.publish(pin_node(huge, 1, 1));
+  pins_.publish(release_pin(huge));
+  pins_.publish(move_pin("", { 0, 0, 0 }));
+  constexpr std::uint32_t far_off = std::numeric_limits<std::uint32_t>::max();
+  pins_.publish(pin_node("a", far_off, far_off));
+  PinMessage nothing_known = pin_node("a", 1, 1);
+  nothing_known.action = 255;
+  pins_.publish(nothing_known);
   feedback_.publish(InteractiveMarkerFeedback());
   InteractiveMarkerFeedback nobody;
   nobody.event_type = 200;

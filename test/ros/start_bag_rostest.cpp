@@ -9,14 +9,15 @@
 #include <rosbag/view.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothTopology.h"
-#include "cloth_sim/Pin.h"
 
 #include "child_process.h"
+#include "launch.h"
 #include "listener.h"
 #include "messages.h"
 #include "node_process.h"
+#include "pin_message.h"
+#include "state_message.h"
 #include "temporary_folder.h"
 #include "time_services.h"
 
@@ -36,16 +37,24 @@ const std::vector<std::string> scene{ "_rate:=50", "_cloth/rows:=8", "_cloth/col
                                       "_pins:=[{name: left, at: top_left}, {name: swung, at: top_right, "
                                       "motion: {amplitude: [0.0, 0.2, 0.0], frequency: 2.0, phase: 0.3}}]" };
 
+/// The same as a file, to be started paused.
+void write_scene(const std::string& file)
+{
+  std::ofstream(file) << "rate: 50\n"
+                         "start_paused: true\n"
+                         "cloth: {rows: 8, cols: 6}\n"
+                         "strain_limit: {solver: sweeps}\n"
+                         "pins:\n"
+                         "  - {name: left, at: top_left}\n"
+                         "  - {name: swung, at: top_right,\n"
+                         "     motion: {amplitude: [0.0, 0.2, 0.0], frequency: 2.0, phase: 0.3}}\n";
+}
+
 std::vector<std::string> scene_with(const std::vector<std::string>& more)
 {
   std::vector<std::string> arguments = scene;
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
-}
-
-bool is_pinned(const ClothState& state, size_t node)
-{
-  return (state.flags[node] & ClothState::PINNED) != 0;
 }
 
 /// The states of a bag, in their order, and when each was recorded, s from the beginning of the bag.
@@ -73,11 +82,7 @@ void record(const std::string& file)
   ros::NodeHandle handle;
   ros::Publisher pins = handle.advertise<cloth_sim::Pin>("/cloth_node/pin", 1);
   ASSERT_TRUE(wait_until([&] { return pins.getNumSubscribers() > 0; })) << node.output();
-  cloth_sim::Pin hand;
-  hand.name = "hand";
-  hand.row = 7;
-  hand.col = 2;
-  pins.publish(hand);
+  pins.publish(pin_node("hand", 7, 2));
   Listener<ClothState> states(state_topic);
   ASSERT_TRUE(states.wait_for_one([](const ClothState& state) { return is_pinned(state, 7 * 6 + 2); }));
   ChildProcess recorder({ "rosbag", "record", "--quiet", "--lz4", "--chunksize=1", "--output-name=" + file, state_topic,
@@ -128,8 +133,10 @@ TEST(StartBag, GoesOnFromTheRecordedState)
   constexpr size_t middle = 20;
   const double start_time = 0.5 * (recorded.times[middle - 1] + recorded.times[middle]);
 
-  NodeProcess node(
-      scene_with({ "_start_bag:=" + file, "_start_time:=" + std::to_string(start_time), "_start_paused:=true" }));
+  const std::string scene_file = folder.file("scene.yaml");
+  write_scene(scene_file);
+  Launch node(
+      { "cloth.launch", "scene:=" + scene_file, "start_bag:=" + file, "start_time:=" + std::to_string(start_time) });
   Listener<ClothState> states(state_topic);
   Listener<MarkerArray> pins("/cloth_node/pins");
   ASSERT_TRUE(states.wait_for(1)) << node.output();

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
-#include <vector>
+#include <system_error>
 
 namespace cloth
 {
@@ -19,25 +19,20 @@ public:
   }
   ~TemporaryFolder()
   {
-    for (const std::string& file : files_)
-    {
-      std::remove(file.c_str());
-    }
-    std::remove(path_.c_str());
+    std::error_code is_left;
+    std::filesystem::remove_all(path_, is_left);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   /// The path of a file in it.
-  std::string file(const std::string& name)
+  std::string file(const std::string& name) const
   {
-    files_.push_back(path_ + "/" + name);
-    return files_.back();
+    return path_ + "/" + name;
   }
 
 private:
   std::string path_;
-  std::vector<std::string> files_;
 };
 
 }  // namespace cloth

@@ -9,11 +9,11 @@
 #include <rosgraph_msgs/Log.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "cloth_sim/ClothState.h"
-#include "cloth_sim/Pin.h"
-
 #include "frame_message.h"
 #include "listener.h"
+#include "pin_message.h"
+#include "state_message.h"
+#include "state_waits.h"
 #include "time_services.h"
 
 namespace cloth
@@ -29,21 +29,6 @@ constexpr double rate = 30.0;
 constexpr double top_speed = 20.0;
 constexpr double in_float32 = 1e-6;
 
-Eigen::Vector3d position_of(const ClothState& state, size_t node)
-{
-  return { state.positions[3 * node], state.positions[3 * node + 1], state.positions[3 * node + 2] };
-}
-
-Eigen::Vector3d velocity_of(const ClothState& state, size_t node)
-{
-  return { state.velocities[3 * node], state.velocities[3 * node + 1], state.velocities[3 * node + 2] };
-}
-
-bool pinned(const ClothState& state, size_t node)
-{
-  return (state.flags[node] & ClothState::PINNED) != 0;
-}
-
 Eigen::Isometry3d pose(const Eigen::Vector3d& place, double yaw = 0.0)
 {
   return Eigen::Translation3d(place) * Eigen::Isometry3d(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
@@ -58,8 +43,7 @@ protected:
     ASSERT_TRUE(wait_until([&] { return pins_.getNumSubscribers() > 0 && state_.publishers() > 0; }));
     constexpr std::uint32_t this_test_and_the_node = 2;
     ASSERT_TRUE(wait_until([&] { return log_.publishers() >= this_test_and_the_node; }));
-    ASSERT_TRUE(trigger("reset").success);
-    ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned(state, 0); }));
+    ASSERT_TRUE(start_over(state_));
     frame_ = std::string("gripper_") + testing::UnitTest::GetInstance()->current_test_info()->name();
   }
 
@@ -84,15 +68,7 @@ protected:
 
   void attach(const std::string& name, std::uint32_t row, std::uint32_t col, bool keep_offset)
   {
-    PinMessage message;
-    message.action = PinMessage::PIN;
-    message.select = PinMessage::NODE;
-    message.name = name;
-    message.row = row;
-    message.col = col;
-    message.attach_frame = frame_;
-    message.keep_offset = static_cast<std::uint8_t>(keep_offset);
-    pins_.publish(message);
+    pins_.publish(attach_node(name, row, col, frame_, keep_offset));
   }
 
   /// Waits until the node has seen the frame: another pin goes to where it stands.
@@ -160,17 +136,12 @@ TEST_F(TfPins, APinIsWithinAMillimetreOfTheTransformThatTheTickRead)
 TEST_F(TfPins, NodesTurnWithTheFrame)
 {
   hold_frame(pose({ -0.5, -0.2, 1.5 }));
-  PinMessage message;
-  message.action = PinMessage::PIN;
-  message.select = PinMessage::RADIUS;
-  message.name = "left";
-  message.point.point.x = -0.5;
-  message.point.point.z = 1.5;
-  message.radius = 0.13;
+  PinMessage message = pin_within("left", { -0.5, 0.0, 1.5 }, 0.13);
   message.attach_frame = frame_;
   message.keep_offset = 1;
   pins_.publish(message);
-  ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return pinned(state, 1) && pinned(state, cols); }));
+  ASSERT_TRUE(
+      state_.wait_for_one([](const ClothState& state) { return is_pinned(state, 1) && is_pinned(state, cols); }));
   const Eigen::Isometry3d first = pose({ -0.5, -0.2, 1.5 });
   const std::vector<size_t> nodes{ 0, 1, cols };
   std::vector<Eigen::Vector3d> goals;
@@ -230,7 +201,7 @@ TEST_F(TfPins, APinHoldsItsPlaceWhileItsFrameIsLostAndGoesOnWhenItIsBack)
   ASSERT_TRUE(wait_for_warning("the pin 'left' holds its place: the latest transform of frame '" + frame_ + "'"));
   ASSERT_TRUE(state_.wait_for_more(2));
   EXPECT_EQ(position_of(state_.last(), corner), lost);
-  EXPECT_TRUE(pinned(state_.last(), corner));
+  EXPECT_TRUE(is_pinned(state_.last(), corner));
   hold_frame(pose({ 0.4, 0.1, 1.4 }));
   EXPECT_TRUE(wait_for_node_at(corner, held - Eigen::Vector3d(0.0, 0.1, 0.0)));
 }
@@ -241,12 +212,7 @@ TEST_F(TfPins, AMoveTakesAPinOffItsFrame)
   hold_frame(pose({ -0.5, 0.2, 1.5 }));
   attach("left", 0, corner, false);
   ASSERT_TRUE(wait_for_node_at(corner, { -0.5, 0.2, 1.5 }));
-  PinMessage move;
-  move.action = PinMessage::MOVE;
-  move.name = "left";
-  move.point.point.x = -0.4;
-  move.point.point.z = 1.6;
-  pins_.publish(move);
+  pins_.publish(move_pin("left", { -0.4, 0.0, 1.6 }));
   ASSERT_TRUE(wait_for_node_at(corner, { -0.4, 0.0, 1.6 }));
   ASSERT_TRUE(state_.wait_for_more(10));
   EXPECT_LT((position_of(state_.last(), corner) - Eigen::Vector3d(-0.4, 0.0, 1.6)).norm(), in_float32);
@@ -260,11 +226,32 @@ TEST_F(TfPins, APausedClothFollowsItsFrameWhenItIsStepped)
   ASSERT_TRUE(wait_for_node_at(corner, { -0.5, 0.2, 1.5 }));
   ASSERT_TRUE(set_paused(true).success);
   hold_frame(pose({ -0.5, 0.3, 1.5 }));
-  ASSERT_TRUE(state_.wait_for_more(2));  // one a second
+  ASSERT_TRUE(wait_for_standstill(state_));
   EXPECT_LT((position_of(state_.last(), corner) - Eigen::Vector3d(-0.5, 0.2, 1.5)).norm(), in_float32);
   EXPECT_TRUE(wait_until([&] {
     return trigger("step").success == 1 && std::abs(position_of(state_.last(), corner).y() - 0.3) < in_float32;
   }));
+  EXPECT_TRUE(set_paused(false).success);
+}
+
+TEST_F(TfPins, AReleasedNodeKeepsTheVelocityThatItsFrameGaveIt)
+{
+  constexpr size_t corner = cols - 1;
+  attach("right", 0, corner, false);
+  ASSERT_TRUE(set_paused(true).success);
+  ASSERT_TRUE(wait_for_standstill(state_));
+  move_frame(30.0, [](int count) { return pose({ 0.5, count / 30.0, 1.5 }); });
+  const auto step = [&] {
+    const double time = state_.last().sim_time;
+    return trigger("step").success == 1 &&
+           state_.wait_for_one([=](const ClothState& state) { return state.sim_time > time; });
+  };
+  EXPECT_TRUE(wait_until([&] { return step() && velocity_of(state_.last(), corner).y() > 0.5; }));
+  const ClothState before = state_.last();
+  pins_.publish(release_pin("right"));
+  EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return !is_pinned(state, corner); }));
+  EXPECT_EQ(state_.last().sim_time, before.sim_time);
+  EXPECT_EQ(velocity_of(state_.last(), corner), velocity_of(before, corner));
   EXPECT_TRUE(set_paused(false).success);
 }
 

@@ -7,10 +7,11 @@
 
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothStats.h"
-#include "cloth_sim/Pin.h"
 
 #include "listener.h"
 #include "node_process.h"
+#include "pin_message.h"
+#include "state_waits.h"
 #include "time_services.h"
 
 namespace cloth
@@ -69,6 +70,7 @@ TEST_F(Time, APausedClothStandsAndGoesOnFromThere)
   ASSERT_TRUE(set_paused(true).success);
   ASSERT_TRUE(stats_.wait_for_one([](const ClothStats& stats) { return stats.paused; }));
   const auto overruns = stats_.last().overruns;
+  ASSERT_TRUE(wait_for_standstill(state_));
   state_.forget();
   ASSERT_TRUE(state_.wait_for(3));
   EXPECT_TRUE(same_cloth(state_.all()[0], state_.all()[2]));
@@ -117,10 +119,7 @@ TEST_F(Time, RequestsArriveWhilePaused)
   NodeProcess node(small_sheet({ "_start_paused:=true" }));
   ASSERT_TRUE(wait_until([&] { return pins.getNumSubscribers() > 0; }));
   ASSERT_TRUE(state_.wait_for(1));
-  cloth_sim::Pin pin;
-  pin.name = "hand";
-  pin.row = 7;
-  pins.publish(pin);
+  pins.publish(pin_node("hand", 7, 0));
   EXPECT_TRUE(markers.wait_for_one([](const auto& array) { return array.markers.size() == 3; }));
   EXPECT_TRUE(state_.wait_for_one([](const ClothState& state) { return state.flags[7 * 8] == ClothState::PINNED; }));
   EXPECT_EQ(state_.last().sim_time, 0.0);
@@ -142,10 +141,7 @@ TEST_F(Time, ResetBringsBackTheFirstState)
   geometry_msgs::Vector3Stamped wind;
   wind.vector.y = 5.0;
   winds.publish(wind);
-  cloth_sim::Pin pin;
-  pin.name = "hand";
-  pin.row = 7;
-  pins.publish(pin);
+  pins.publish(pin_node("hand", 7, 0));
   ASSERT_TRUE(state_.wait_for_one([](const ClothState& state) { return state.flags[7 * 8] == ClothState::PINNED; }));
   ASSERT_TRUE(set_paused(false).success);
   ASSERT_TRUE(state_.wait_for_more(5));
@@ -158,6 +154,24 @@ TEST_F(Time, ResetBringsBackTheFirstState)
   ASSERT_TRUE(trigger("step").success);
   ASSERT_TRUE(wait_for_sim_time(1.0 / rate));
   EXPECT_TRUE(same_cloth(state_.last(), second)) << "the wind is not the scene's";
+}
+
+TEST_F(Time, GustsAreTheSameAfterAReset)
+{
+  NodeProcess node(small_sheet({ "_start_paused:=true", "_air/wind_coupling:=5", "_air/gusts/strength:=10" }));
+  ASSERT_TRUE(state_.wait_for(1));
+  const auto after_ten_ticks = [&] {
+    for (int tick = 1; tick <= 10; ++tick)
+    {
+      EXPECT_TRUE(trigger("step").success);
+    }
+    EXPECT_TRUE(wait_for_sim_time(10 / rate));
+    return state_.last();
+  };
+  const ClothState blown = after_ten_ticks();
+  ASSERT_TRUE(trigger("reset").success);
+  ASSERT_TRUE(wait_for_sim_time(0.0));
+  EXPECT_TRUE(same_cloth(after_ten_ticks(), blown));
 }
 
 TEST_F(Time, ResetBringsBackAClothThatHasDiverged)

@@ -9,10 +9,10 @@
 #include "cloth_sim/ClothState.h"
 #include "cloth_sim/ClothStats.h"
 #include "cloth_sim/ClothTopology.h"
-#include "cloth_sim/Pin.h"
 
 #include "listener.h"
 #include "node_process.h"
+#include "pin_message.h"
 #include "time_services.h"
 #include "tuning_client.h"
 
@@ -212,10 +212,7 @@ TEST_F(TuningTest, PinsAndTheWindOfAMessageCarryOn)
   const ros::Publisher winds = test.advertise<geometry_msgs::Vector3Stamped>("/cloth_node/wind", 10);
   NodeProcess node(small_sheet({ "_air/wind_coupling:=5" }));
   ASSERT_TRUE(wait_until([&] { return pins.getNumSubscribers() > 0 && winds.getNumSubscribers() > 0; }));
-  cloth_sim::Pin pin;
-  pin.name = "hand";
-  pin.row = 7;
-  pins.publish(pin);
+  pins.publish(pin_node("hand", 7, 0));
   geometry_msgs::Vector3Stamped wind;
   wind.vector.y = 8.0;
   winds.publish(wind);

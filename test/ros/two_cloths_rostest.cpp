@@ -7,10 +7,10 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include "cloth_sim/ClothState.h"
-#include "cloth_sim/Pin.h"
-
 #include "listener.h"
+#include "pin_message.h"
+#include "state_message.h"
+#include "state_waits.h"
 
 namespace cloth
 {
@@ -51,16 +51,11 @@ public:
   }
   void pin(std::uint32_t row, std::uint32_t col)
   {
-    cloth_sim::Pin request;
-    request.row = row;
-    request.col = col;
-    pins_.publish(request);
+    pins_.publish(pin_node("", row, col));
   }
   void release_all()
   {
-    cloth_sim::Pin request;
-    request.action = cloth_sim::Pin::RELEASE;
-    pins_.publish(request);
+    pins_.publish(release_pin(""));
   }
   void click(double x, double z)
   {
@@ -77,22 +72,6 @@ private:
   std::string name_;
 };
 
-size_t pinned_nodes(const ClothState& state)
-{
-  return static_cast<size_t>(std::count_if(state.flags.begin(), state.flags.end(),
-                                           [](std::uint8_t flags) { return (flags & ClothState::PINNED) != 0; }));
-}
-
-double mean_x(const ClothState& state)
-{
-  double sum = 0.0;
-  for (size_t i = 0; i < state.positions.size(); i += 3)
-  {
-    sum += static_cast<double>(state.positions[i]);
-  }
-  return sum / static_cast<double>(state.positions.size() / 3);
-}
-
 class TwoCloths : public testing::Test
 {
 protected:
@@ -108,8 +87,8 @@ protected:
 
 TEST_F(TwoCloths, HaveTopicsOfTheirOwn)
 {
-  EXPECT_LT(mean_x(left_.states.last()), -0.5);
-  EXPECT_GT(mean_x(right_.states.last()), 0.5);
+  EXPECT_LT(mean_position(left_.states.last()).x(), -0.5);
+  EXPECT_GT(mean_position(right_.states.last()).x(), 0.5);
   EXPECT_EQ(left_.states.publishers(), 1u);
   EXPECT_EQ(right_.states.publishers(), 1u);
   ros::master::V_TopicInfo topics;
@@ -124,7 +103,7 @@ TEST_F(TwoCloths, OneIsPausedAndResetWithoutTheOther)
 {
   ASSERT_TRUE(left_.states.wait_for_one([](const ClothState& state) { return state.sim_time > 0.0; }));
   ASSERT_TRUE(left_.set_paused(true));
-  ASSERT_TRUE(left_.states.wait_for_more(1));
+  ASSERT_TRUE(wait_for_standstill(left_.states));
   const double paused_at = left_.states.last().sim_time;
   const double later = right_.states.last().sim_time + 0.2;
   ASSERT_TRUE(right_.states.wait_for_one([&](const ClothState& state) { return state.sim_time > later; }));

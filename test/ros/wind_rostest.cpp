@@ -5,9 +5,8 @@
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Log.h>
 
-#include "cloth_sim/ClothState.h"
-
 #include "listener.h"
+#include "state_message.h"
 #include "time_services.h"
 
 namespace cloth
@@ -16,16 +15,6 @@ namespace
 {
 
 using cloth_sim::ClothState;
-
-double mean_y(const ClothState& state)
-{
-  double sum = 0.0;
-  for (size_t i = 1; i < state.positions.size(); i += 3)
-  {
-    sum += state.positions[i];
-  }
-  return 3.0 * sum / static_cast<double>(state.positions.size());
-}
 
 geometry_msgs::Vector3Stamped wind_along_y(double speed)
 {
@@ -55,11 +44,11 @@ TEST_F(Wind, OfTheSceneBlowsAgainWhenNoneCameByTopicForLong)
   ASSERT_TRUE(wait_until([&] { return winds.getNumSubscribers() > 0 && log_.publishers() >= 3; }));
   ASSERT_TRUE(state.wait_for_one([&](const ClothState& last) {
     winds.publish(wind_along_y(-6.0));
-    return mean_y(last) < -0.1;
+    return mean_position(last).y() < -0.1;
   }));
   const std::string warning = "no message on ~wind for more than wind_timeout, 1.0 s";
   EXPECT_TRUE(wait_until([&] { return warnings_with(warning) > 0; }));
-  EXPECT_TRUE(state.wait_for_one([](const ClothState& last) { return mean_y(last) > 0.01; }))
+  EXPECT_TRUE(state.wait_for_one([](const ClothState& last) { return mean_position(last).y() > 0.01; }))
       << "the scene's wind blows the other way";
   ASSERT_TRUE(state.wait_for_more(100));
   EXPECT_EQ(warnings_with(warning), 1);

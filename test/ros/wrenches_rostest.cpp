@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "cloth_sim/ClothState.h"
-#include "cloth_sim/Pin.h"
 
 #include "listener.h"
+#include "pin_message.h"
+#include "state_waits.h"
 #include "time_services.h"
 
 namespace cloth
@@ -18,7 +19,6 @@ namespace
 
 using cloth_sim::ClothState;
 using geometry_msgs::WrenchStamped;
-using PinMessage = cloth_sim::Pin;
 
 constexpr double weight = 0.4 * 9.81;
 
@@ -34,8 +34,7 @@ protected:
   void SetUp() override
   {
     ASSERT_TRUE(wait_until([&] { return pins_.getNumSubscribers() > 0 && state_.publishers() > 0; }));
-    ASSERT_TRUE(trigger("reset").success);
-    ASSERT_TRUE(state_.wait_for_more(2));
+    ASSERT_TRUE(start_over(state_));
   }
 
   /// The first wrench on the holder of `pin` for which there is one of `other_pin` at the same time: both.
@@ -57,7 +56,7 @@ protected:
 
   ros::NodeHandle node_;
   Listener<ClothState> state_{ "/cloth_node/state" };
-  ros::Publisher pins_ = node_.advertise<PinMessage>("/cloth_node/pin", 100);
+  ros::Publisher pins_ = node_.advertise<cloth_sim::Pin>("/cloth_node/pin", 100);
 };
 
 TEST_F(Wrenches, AtRestCarryTheWeight)
@@ -95,19 +94,12 @@ TEST_F(Wrenches, ComeOnceATick)
 TEST_F(Wrenches, ComeAndGoWithTheirPins)
 {
   Listener<WrenchStamped> hand("/cloth_node/pins/hand/wrench");
-  PinMessage message;
-  message.action = PinMessage::PIN;
-  message.select = PinMessage::NODE;
-  message.name = "hand";
-  message.row = 8;
-  pins_.publish(message);
+  pins_.publish(pin_node("hand", 8, 0));
   EXPECT_TRUE(hand.wait_for(3));
   EXPECT_EQ(hand.publishers(), 1u);
-  message.action = PinMessage::RELEASE;
-  pins_.publish(message);
+  pins_.publish(release_pin("hand"));
   EXPECT_TRUE(wait_until([&] { return hand.publishers() == 0; }));
-  message.action = PinMessage::PIN;
-  pins_.publish(message);
+  pins_.publish(pin_node("hand", 8, 0));
   hand.forget();
   EXPECT_TRUE(hand.wait_for(1));
   ASSERT_TRUE(trigger("reset").success);
