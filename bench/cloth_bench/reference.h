@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver.h"
+
+namespace cloth
+{
+
+struct ReferenceSettings
+{
+  double first_tolerance = 1e-11;     ///< m, of both solvers
+  double tightest_tolerance = 1e-13;  ///< m; tightened tenfold at a time while the two disagree
+  double most_disagreement = 1e-9;    ///< m; 1 % of the smallest error that is to be drawn
+  double most_seconds = 60.0;         ///< wall time of one run
+  int most_halvings = 4;              ///< of the horizon
+};
+
+/// A motion that others are held against.
+struct Reference
+{
+  bool accepted = false;
+  double horizon = 0.0;             ///< s
+  double disagreement = 0.0;        ///< of the two solvers, as a root mean square over nodes and times, m
+  double growth = 0.0;              ///< of a disturbance of 1e-9 m, as a factor; 0: not measured
+  std::string reason;               ///< why it is not accepted, or why the horizon is shorter than it was asked for
+  std::vector<ClothState> samples;  ///< at the problem's times
+};
+
+/// The motion of `problem` by dopri5, accepted when `other` comes within the disagreement allowed. A disturbance of 1e-9 m
+/// that grows so much that rounding could come to that disagreement limits the horizon. Where the two do not agree, or
+/// take too long, the horizon is halved, and in the end the problem is refused.
+Reference find_reference(const Problem& problem, const Solver* other, const ReferenceSettings& settings);
+
+/// The motion with the strain limit at h -> 0: velocity_verlet at ever shorter steps. Its disagreement is the larger of
+/// that with steps twice as long and that with rk4 at the same; the shortest steps are those that `most_seconds` allows.
+/// Refused where the disagreement is more than `most_disagreement`.
+Reference find_limited_reference(const Problem& problem, const ReferenceSettings& settings);
+
+}  // namespace cloth
