@@ -50,13 +50,6 @@ void take(const Outcome& outcome, Measurement& measurement)
   measurement.linear_solves = outcome.linear_solves;
 }
 
-/// What a run takes at `value` when it took so long at `before`.
-double expected_seconds(Setting setting, double seconds, double before, double value)
-{
-  constexpr double a_digit_more = 1.5;
-  return seconds * (setting == Setting::tolerance ? a_digit_more : std::max(before / value, value / before));
-}
-
 /// The same folder, there and with nothing in it that comes from elsewhere.
 const std::string& prepared(const std::string& folder, const Provenance& provenance)
 {
@@ -85,7 +78,7 @@ BenchSettings BenchSettings::quick()
   settings.reference.first_tolerance = 1e-10;
   settings.reference.most_disagreement = 1e-8;
   settings.reference.most_seconds = 5.0;
-  settings.limited_disagreement = 1e-4;
+  settings.limited_disagreement = 2e-4;
   settings.limited_seconds = 1.0;
   settings.spatial_seconds = 2.0;
   return settings;
@@ -213,14 +206,15 @@ std::vector<Measurement> Bench::climb(const Solver& solver, const Problem& probl
   like.solver = solver.name();
   like.setting = name_of(solver.setting());
   const double smallest_error = std::max(problem.kind == Kind::limited ? 0.0 : settings_.smallest_error,
-                                         resolution * reference.disagreement);
+                                         resolution_of(row.kind) * reference.disagreement);
   std::vector<Measurement> complete;
   double expected = 0.0;
-  const std::vector<double> ladder = solver.ladder(problem, settings_.ratio);
-  for (size_t rung = 0; rung < ladder.size(); ++rung)
+  double before = 0.0;
+  bool is_after_another = false;
+  for (const double value : solver.ladder(problem, settings_.ratio))
   {
-    like.value = format_number(ladder[rung]);
-    const Measurement here = first_run(solver, problem, ladder[rung], reference, like, expected);
+    like.value = format_number(value);
+    const Measurement here = first_run(solver, problem, value, reference, like, expected);
     if (here.is_complete())
     {
       complete.push_back(here);
@@ -229,10 +223,10 @@ std::vector<Measurement> Bench::climb(const Solver& solver, const Problem& probl
     {
       break;
     }
-    if (rung + 1 < ladder.size())
-    {
-      expected = expected_seconds(solver.setting(), here.seconds, ladder[rung], ladder[rung + 1]);
-    }
+    const double growth = is_after_another ? std::max(1.0, here.seconds / before) : 1.0;
+    expected = here.seconds * std::min(growth, settings_.ratio);
+    is_after_another = here.is_complete();
+    before = here.seconds;
   }
   return complete;
 }

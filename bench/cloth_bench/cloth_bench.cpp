@@ -49,7 +49,7 @@ cloth::Solvers all_solvers()
 int run(const cloth::BenchOptions& options)
 {
   const std::vector<cloth::BenchScene> scenes =
-      cloth::read_scenes(options.scene_files.empty() ? cloth::shipped_scenes(options.quick) : options.scene_files);
+      cloth::read_scenes(options.scene_files.empty() ? cloth::scenes_of_the_program(options.quick) : options.scene_files);
   if (scenes.empty())
   {
     throw cloth::BenchUsageError("there are no scenes beside the program; give some");

@@ -2,13 +2,16 @@
 
 #include <chrono>
 
+#include <time.h>
+
 #include "solver.h"
 
 namespace cloth
 {
 
 /// Times a run interval by interval. The first one counts for nothing but the time left: what a solver makes once, it
-/// makes there, and it fills the caches.
+/// makes there, and it fills the caches. How long a run may take goes by the processor's time, so that other programs do
+/// not decide which runs there are.
 class IntervalClock
 {
 public:
@@ -19,40 +22,37 @@ public:
   template <typename Work>
   void time(Work&& work)
   {
-    begin_ = Clock::now();
-    is_running_ = true;
+    const WallClock::time_point begin = WallClock::now();
     work();
-    is_running_ = false;
-    const double seconds = since_begin();
-    all_ += seconds;
+    const double seconds = std::chrono::duration<double>(WallClock::now() - begin).count();
     counted_ += intervals_++ == 0 ? 0.0 : seconds;
   }
 
   bool is_up() const
   {
-    return all_ + (is_running_ ? since_begin() : 0.0) > most_seconds_;
+    return processor_seconds() - begin_ > most_seconds_;
   }
 
   void report(Outcome& outcome) const
   {
-    outcome.seconds = all_;
+    outcome.seconds = processor_seconds() - begin_;
     const int counted = intervals_ - 1;
     outcome.seconds_per_second = counted > 0 ? counted_ / (counted * problem_.sample_interval()) : 0.0;
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
+  using WallClock = std::chrono::steady_clock;
 
-  double since_begin() const
+  static double processor_seconds()
   {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
   }
 
   const Problem& problem_;
   double most_seconds_;
-  Clock::time_point begin_;
-  bool is_running_ = false;
-  double all_ = 0.0;
+  double begin_ = processor_seconds();
   double counted_ = 0.0;
   int intervals_ = 0;
 };

@@ -36,7 +36,7 @@ std::string shipped_file(const std::string& name)
   return {};
 }
 
-std::vector<std::string> shipped_scenes(bool small)
+std::vector<std::string> scenes_of_the_program(bool small)
 {
   std::vector<std::string> files;
   const std::string folder = shipped_file("scenes");

@@ -11,6 +11,6 @@ namespace cloth
 std::string shipped_file(const std::string& name);
 
 /// The scenes that come with the program, in order of their names; the small ones alone where `small`.
-std::vector<std::string> shipped_scenes(bool small);
+std::vector<std::string> scenes_of_the_program(bool small);
 
 }  // namespace cloth

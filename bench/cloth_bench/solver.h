@@ -35,7 +35,7 @@ struct Outcome
 {
   Status status = Status::ok;
   std::vector<ClothState> samples;      ///< at the problem's times; all of them only where the run came to its end
-  double seconds = 0.0;                 ///< wall time of all that was timed
+  double seconds = 0.0;                 ///< of processor time, all in all
   double seconds_per_second = 0.0;      ///< wall time per simulated second, without the first interval
   double force_evaluations = 0.0;       ///< per simulated second
   double linear_solves = 0.0;           ///< likewise
@@ -53,7 +53,7 @@ public:
   /// The settings from coarse to fine, of which `ratio` is the wanted factor between neighbours, 2 or more.
   virtual std::vector<double> ladder(const Problem& problem, double ratio) const = 0;
 
-  /// Finds the motion; gives up as too slow after about `most_seconds` of wall time.
+  /// Finds the motion; gives up as too slow after about `most_seconds` of processor time.
   virtual Outcome run(const Problem& problem, double value, double most_seconds) const = 0;
 
   /// Why it cannot run this problem at all; empty: it can.
