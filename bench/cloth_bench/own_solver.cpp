@@ -14,8 +14,6 @@ namespace
 /// The longest step that is tried where stability asks for none, s.
 constexpr double longest_step = 1.0 / 30.0;
 constexpr double step_of_iterations = 1.0 / 240.0;
-/// No run has so many steps in an interval.
-constexpr double most_steps = 1 << 26;
 /// Where more than this part of its steps left its equations unsolved, a run has not converged.
 constexpr double unconverged_part = 0.01;
 
@@ -35,7 +33,7 @@ std::vector<double> steps_from(double first, const Problem& problem, double rati
   const double interval = problem.sample_interval();
   double steps = std::exp2(std::max(0.0, std::ceil(std::log2(interval / first))));
   std::vector<double> ladder;
-  for (; steps <= most_steps; steps *= ratio)
+  for (; interval / steps > 2.0 * Simulation::shortest_step; steps *= ratio)
   {
     ladder.push_back(interval / steps);
   }

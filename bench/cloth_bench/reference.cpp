@@ -13,9 +13,7 @@ namespace cloth
 namespace
 {
 
-/// What rounding may leave of a position in a run, m.
-constexpr double rounding = 1e-15;
-constexpr double disturbance = 1e-9;
+constexpr double disturbance = 1e-9;  // m
 
 std::string in_short(double number)
 {
@@ -53,7 +51,7 @@ Reference reference_at(const Problem& problem, const Solver& ours, const Solver&
         const double distance = rms_distance({ moved.samples[s] }, { base.samples[s] });
         reference.growth = std::max(reference.growth, distance / disturbance);
       }
-      if (reference.growth * rounding > settings.most_disagreement)
+      if (reference.growth * settings.rounding > settings.most_disagreement)
       {
         reference.reason = "a disturbance of 1e-9 m grows " + in_short(reference.growth) + " times, and rounding with it";
         break;

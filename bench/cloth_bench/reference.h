@@ -14,6 +14,7 @@ struct ReferenceSettings
   double tightest_tolerance = 1e-13;  ///< m; tightened tenfold at a time while the two disagree
   double most_disagreement = 1e-9;    ///< m; 1 % of the smallest error that is to be drawn
   double most_seconds = 60.0;         ///< of processor time, of one run
+  double rounding = 1e-15;            ///< m; what it may leave of a position in a run where nothing grows
   int most_halvings = 4;              ///< of the horizon
 };
 

@@ -88,7 +88,7 @@ class BenchInAFolder : public InAFolder
 {
 protected:
   /// So quick that no run is too slow.
-  static BenchSettings settings()
+  static BenchSettings small_settings()
   {
     BenchSettings settings;
     settings.longest_horizon = 0.1;
@@ -111,7 +111,7 @@ protected:
 
   /// Runs the scene in a folder, at most so many runs and references.
   bool bench(const std::string& out, Solvers solvers, int most_runs = 1 << 30, const std::string& scene = small_scene,
-             const BenchSettings& settings = settings())
+             const BenchSettings& settings = small_settings())
   {
     Bench bench(path(out), settings, std::move(solvers), std::make_unique<Rk4InSmallSteps>(),
                 { "a machine", "a compiler", "a commit" });
@@ -204,12 +204,12 @@ TEST_F(BenchInAFolder, ListsWhatIsTooSlowAndTriesNothingFiner)
     }
     std::vector<double> ladder(const Problem& problem, double) const override
     {
-      return { problem.sample_interval() / 8, problem.sample_interval() / (1 << 26), 1e-9 };
+      return { problem.sample_interval() / 8, problem.sample_interval() / (1 << 22), 1e-9 };
     }
   };
   Solvers solvers;
   solvers.push_back(std::make_unique<Slow>());
-  BenchSettings brief = settings();
+  BenchSettings brief = small_settings();
   brief.most_seconds = 0.05;
   bench("out", std::move(solvers), 1 << 30, small_scene, brief);
   const std::vector<Row> all = rows("out");
@@ -276,7 +276,7 @@ TEST_F(BenchInAFolder, RefusesAFolderOfAnotherMachineOrProgram)
   {
     try
     {
-      const Bench bench(path("out"), settings(), two_methods(), nullptr, other);
+      const Bench bench(path("out"), small_settings(), two_methods(), nullptr, other);
       FAIL() << "taken";
     }
     catch (const std::runtime_error& error)
@@ -288,13 +288,13 @@ TEST_F(BenchInAFolder, RefusesAFolderOfAnotherMachineOrProgram)
 
 TEST_F(BenchInAFolder, RefusesAFolderThatIsInUse)
 {
-  const Bench first(path("out"), settings(), two_methods(), nullptr, { "a", "b", "c" });
-  EXPECT_THROW(Bench(path("out"), settings(), two_methods(), nullptr, { "a", "b", "c" }), std::runtime_error);
+  const Bench first(path("out"), small_settings(), two_methods(), nullptr, { "a", "b", "c" });
+  EXPECT_THROW(Bench(path("out"), small_settings(), two_methods(), nullptr, { "a", "b", "c" }), std::runtime_error);
 }
 
 TEST_F(BenchInAFolder, RunsNothingOfASceneWithoutAReference)
 {
-  BenchSettings strict = settings();
+  BenchSettings strict = small_settings();
   strict.reference.most_disagreement = 1e-25;
   EXPECT_FALSE(bench("out", two_methods(), 1 << 30, small_scene, strict));
   EXPECT_EQ(runs_, 0);
@@ -307,7 +307,7 @@ TEST_F(BenchInAFolder, RunsNothingOfASceneWithoutAReference)
 TEST_F(BenchInAFolder, ChartsASceneWithAStrainLimitWithItAndWithoutIt)
 {
   const std::string limited = "cloth: {rows: 5, cols: 6, ripple: 0.02}\nstrain_limit: {max_strain: 0.05, sweeps: 1000}\n";
-  BenchSettings brief = settings();
+  BenchSettings brief = small_settings();
   brief.limited_seconds = 0.5;
   brief.limited_disagreement = 1e-3;
   brief.spatial_seconds = 60.0;

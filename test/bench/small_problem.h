@@ -44,7 +44,7 @@ public:
   }
   std::vector<double> ladder(const Problem&, double) const override
   {
-    return { 1e-2, 1e-4, 1e-6 };
+    return { 1e-2, 5e-4, 1e-5 };
   }
   Outcome run(const Problem& problem, double value, double) const override
   {
