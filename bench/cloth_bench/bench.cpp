@@ -17,6 +17,8 @@ namespace
 
 /// A grid that can be moved for less time than this is not compared with finer ones, s.
 constexpr double shortest_spatial_horizon = 0.02;
+/// What may be spent on the finest grid, in parts of what may be spent on the scene itself.
+constexpr double spatial_part = 2.0;
 /// So many times as fine.
 constexpr int finest_factor = 4;
 
@@ -77,10 +79,10 @@ BenchSettings BenchSettings::quick()
   settings.least_timed = 0.002;
   settings.reference.first_tolerance = 1e-10;
   settings.reference.most_disagreement = 1e-8;
-  settings.reference.most_seconds = 5.0;
+  settings.reference.most_seconds = 4.0;
   settings.limited_disagreement = 2e-4;
   settings.limited_seconds = 1.0;
-  settings.spatial_seconds = 2.0;
+  settings.spatial_seconds = 4.0;
   return settings;
 }
 
@@ -285,7 +287,7 @@ void Bench::repeat_in_turn(const Problem& problem, const std::vector<std::pair<c
 void Bench::run_spatial(const BenchScene& scene)
 {
   const double horizon =
-      horizon_of(refined(scene.params, finest_factor), settings_.longest_horizon, settings_.most_node_steps);
+      horizon_of(refined(scene.params, finest_factor), settings_.longest_horizon, spatial_part * settings_.most_node_steps);
   SceneRow row = scene_row(scene, Kind::spatial, horizon);
   row.accepted = horizon >= shortest_spatial_horizon;
   row.reason = row.accepted ? "" : "a grid four times as fine would take too long";

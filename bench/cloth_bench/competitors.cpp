@@ -25,10 +25,10 @@ Solvers competitors()
 
 std::unique_ptr<Solver> independent_solver()
 {
-#if defined(CLOTH_BENCH_HAS_CVODE)
-  return std::make_unique<CvodeSolver>(CvodeSolver::Formula::adams);
-#elif defined(CLOTH_BENCH_HAS_ODEINT)
+#if defined(CLOTH_BENCH_HAS_ODEINT)
   return std::make_unique<OdeintSolver>(OdeintSolver::Formula::fehlberg78);
+#elif defined(CLOTH_BENCH_HAS_CVODE)
+  return std::make_unique<CvodeSolver>(CvodeSolver::Formula::adams);
 #else
   return nullptr;
 #endif

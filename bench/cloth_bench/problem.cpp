@@ -66,10 +66,12 @@ double horizon_of(const SceneParams& scene, double longest, double most_node_ste
   const Simulation simulation = simulation_of(problem, "velocity_verlet", 1.0, {});
   const double nodes = simulation.model().nodes();
   const double affordable = most_node_steps / nodes * simulation.stability_limit();
+  double power = 1.0;
   double horizon = 0.5;
-  for (int i = 0; horizon > std::min(longest, affordable); ++i)
+  for (int i = 1; horizon > std::min(longest, affordable); ++i)
   {
-    horizon *= i % 3 == 1 ? 0.4 : 0.5;
+    power *= i % 3 == 0 ? 10.0 : 1.0;
+    horizon = (i % 3 == 0 ? 0.5 : i % 3 == 1 ? 0.25 : 0.1) / power;
   }
   return horizon;
 }
