@@ -3,6 +3,7 @@
 # The older interface of SUNDIALS 5 and before does not do.
 find_package(SUNDIALS 6 QUIET COMPONENTS cvode nvecserial sunlinsolspgmr sunnonlinsolfixedpoint)
 find_package(Boost QUIET)
+find_package(Bullet QUIET)
 
 # The commit is looked up at every build.
 set(commit_source ${CMAKE_CURRENT_BINARY_DIR}/cloth_bench_commit.cpp)
@@ -59,6 +60,14 @@ if(Boost_FOUND)
   target_compile_definitions(cloth_bench_parts PUBLIC CLOTH_BENCH_HAS_ODEINT)
 else()
   message(STATUS "Boost (libboost-dev) is missing: cloth_bench does without odeint")
+endif()
+if(BULLET_FOUND)
+  target_sources(cloth_bench_parts PRIVATE bench/cloth_bench/bullet_solver.cpp)
+  target_include_directories(cloth_bench_parts SYSTEM PRIVATE ${BULLET_INCLUDE_DIR} ${BULLET_INCLUDE_DIRS})
+  target_compile_definitions(cloth_bench_parts PUBLIC CLOTH_BENCH_HAS_BULLET)
+  target_link_libraries(cloth_bench_parts PUBLIC ${BULLET_LIBRARIES})
+else()
+  message(STATUS "Bullet (libbullet-dev) is missing: cloth_bench does without it")
 endif()
 
 add_executable(cloth_bench bench/cloth_bench/cloth_bench.cpp)

@@ -167,7 +167,12 @@ void Bench::run(const BenchScene& scene, Kind kind)
   std::vector<std::pair<const Solver*, Measurement>> complete;
   for (const std::unique_ptr<Solver>& solver : solvers_)
   {
-    if (row.accepted && solver->obstacle(problem).empty())
+    const std::string obstacle = solver->obstacle(problem);
+    if (row.accepted && !obstacle.empty())
+    {
+      progress_.say(row.scene + " (" + row.kind + "): without " + solver->name() + ": " + obstacle);
+    }
+    else if (row.accepted)
     {
       for (const Measurement& measurement : climb(*solver, problem, reference, row))
       {

@@ -1,5 +1,8 @@
 #include "competitors.h"
 
+#ifdef CLOTH_BENCH_HAS_BULLET
+#include "bullet_solver.h"
+#endif
 #ifdef CLOTH_BENCH_HAS_CVODE
 #include "cvode_solver.h"
 #endif
@@ -19,6 +22,9 @@ Solvers competitors()
 #endif
 #ifdef CLOTH_BENCH_HAS_ODEINT
   solvers.push_back(std::make_unique<OdeintSolver>(OdeintSolver::Formula::dopri5));
+#endif
+#ifdef CLOTH_BENCH_HAS_BULLET
+  solvers.push_back(std::make_unique<BulletSolver>());
 #endif
   return solvers;
 }
@@ -42,6 +48,9 @@ std::vector<std::string> left_out_competitors()
 #endif
 #ifndef CLOTH_BENCH_HAS_ODEINT
   lines.push_back("odeint is left out: built without Boost (libboost-dev)");
+#endif
+#ifndef CLOTH_BENCH_HAS_BULLET
+  lines.push_back("Bullet is left out: built without it (libbullet-dev)");
 #endif
   return lines;
 }

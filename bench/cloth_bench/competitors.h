@@ -5,7 +5,8 @@
 namespace cloth
 {
 
-/// Solvers that others have written, on the same equations: those that were there when this was built.
+/// Solvers that others have written, on the same equations (Bullet: on its own, which are near to them where springs are
+/// stiff): those that were there when this was built.
 Solvers competitors();
 
 /// The one that references are checked with: odeint's formula of order 8, or CVODE's of Adams, which takes several times as
