@@ -74,7 +74,6 @@ BenchSettings BenchSettings::quick()
   settings.most_node_steps = 5e6;
   settings.smallest_error = 1e-6;
   settings.most_seconds = 0.12;
-  settings.ratio = 4.0;
   settings.most_repeats = 2;
   settings.least_timed = 0.002;
   settings.reference.first_tolerance = 1e-10;

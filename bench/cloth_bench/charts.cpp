@@ -43,7 +43,7 @@ int status_of(std::vector<std::string> words)
 
 }  // namespace
 
-std::string draw_charts(const std::string& folder)
+std::string draw_charts(const std::string& folder, const std::string& command)
 {
   const std::string program = shipped_file("plot_work_precision.py");
   if (program.empty())
@@ -57,7 +57,8 @@ std::string draw_charts(const std::string& folder)
     return "no charts: matplotlib (python3-matplotlib) is missing; afterwards: " + program + " " + folder +
            "/runs.csv " + folder;
   }
-  return status_of({ python(), program, folder + "/runs.csv", folder }) == 0 ? "" : "no charts: " + program + " failed";
+  const int status = status_of({ python(), program, folder + "/runs.csv", folder, "--command", command });
+  return status == 0 ? "" : "no charts: " + program + " failed";
 }
 
 }  // namespace cloth

@@ -36,6 +36,17 @@ void say(const std::string& line)
   std::cerr << "cloth_bench: " << line << "\n";
 }
 
+/// As it was given, but for the folder that the program is in.
+std::string command_of(int argc, char** argv)
+{
+  std::string command = "cloth_bench";
+  for (int i = 1; i < argc; ++i)
+  {
+    command += std::string(" ") + argv[i];
+  }
+  return command;
+}
+
 cloth::Solvers all_solvers()
 {
   cloth::Solvers solvers = cloth::own_solvers();
@@ -46,7 +57,7 @@ cloth::Solvers all_solvers()
   return solvers;
 }
 
-int run(const cloth::BenchOptions& options)
+int run(const cloth::BenchOptions& options, const std::string& command)
 {
   const std::vector<cloth::BenchScene> scenes =
       cloth::read_scenes(options.scene_files.empty() ? cloth::scenes_of_the_program(options.quick) : options.scene_files);
@@ -68,7 +79,7 @@ int run(const cloth::BenchOptions& options)
   say("tables: " + options.folder + "/runs.csv and scenes.csv");
   if (options.charts && any_accepted)
   {
-    const std::string failure = cloth::draw_charts(options.folder);
+    const std::string failure = cloth::draw_charts(options.folder, command);
     say(failure.empty() ? "charts: " + options.folder : failure);
   }
   return any_accepted ? done : refused;
@@ -89,7 +100,7 @@ int main(int argc, char** argv)
     std::signal(SIGINT, end_without_traces);
     std::signal(SIGTERM, end_without_traces);
     std::signal(SIGHUP, end_without_traces);
-    return run(options);
+    return run(options, command_of(argc, argv));
   }
   catch (const cloth::BenchUsageError& error)
   {

@@ -10,7 +10,7 @@ namespace cloth
 namespace
 {
 
-constexpr int most_nodes_of_small = 1100;
+constexpr int most_nodes_of_small = 600;
 
 bool is_small(const std::string& file)
 {
