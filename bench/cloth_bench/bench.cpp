@@ -73,7 +73,7 @@ BenchSettings BenchSettings::quick()
   settings.longest_horizon = 0.25;
   settings.most_node_steps = 5e6;
   settings.smallest_error = 1e-6;
-  settings.most_seconds = 0.12;
+  settings.most_seconds = 0.2;
   settings.most_repeats = 2;
   settings.least_timed = 0.002;
   settings.reference.first_tolerance = 1e-10;
@@ -150,6 +150,7 @@ void Bench::run(const BenchScene& scene, Kind kind)
   const double horizon = horizon_of(scene.params, settings_.longest_horizon, settings_.most_node_steps);
   Problem problem = problem_of(scene.name, kind, scene.params, horizon);
   SceneRow row = scene_row(scene, kind, horizon);
+  say_if_changed(row);
   const Reference reference = reference_of(problem, row.fingerprint);
   problem.horizon = reference.horizon;
   row.accepted = reference.accepted;
@@ -182,6 +183,26 @@ void Bench::run(const BenchScene& scene, Kind kind)
   }
   repeat_in_turn(problem, complete);
   finish_part();
+}
+
+void Bench::say_if_changed(const SceneRow& row)
+{
+  bool any = false;
+  for (const Measurement& measurement : journal_.all())
+  {
+    if (measurement.scene == row.scene && measurement.kind == row.kind)
+    {
+      any = true;
+      if (measurement.fingerprint == row.fingerprint)
+      {
+        return;
+      }
+    }
+  }
+  if (any)
+  {
+    progress_.say(row.scene + " (" + row.kind + ") begins anew: the scene, or how much is asked for, has changed");
+  }
 }
 
 Reference Bench::reference_of(const Problem& problem, const std::string& fingerprint)
@@ -290,8 +311,8 @@ void Bench::repeat_in_turn(const Problem& problem, const std::vector<std::pair<c
 
 void Bench::run_spatial(const BenchScene& scene)
 {
-  const double horizon =
-      horizon_of(refined(scene.params, finest_factor), settings_.longest_horizon, spatial_part * settings_.most_node_steps);
+  const double horizon = horizon_of(refined(scene.params, finest_factor), settings_.longest_horizon,
+                                    spatial_part * settings_.most_node_steps);
   SceneRow row = scene_row(scene, Kind::spatial, horizon);
   row.accepted = horizon >= shortest_spatial_horizon;
   row.reason = row.accepted ? "" : "a grid four times as fine would take too long";
@@ -327,9 +348,9 @@ void Bench::run_spatial(const BenchScene& scene)
     measurement.nodes = params.sheet.rows * params.sheet.cols;
     if (measurement.is_complete())
     {
-      measurement.errors = errors_between_grids(make_sheet(params.sheet), outcome.samples,
-                                                make_sheet(fine_problem.plan.scene.sheet), fine.samples,
-                                                finest_factor / factor);
+      measurement.errors =
+          errors_between_grids(make_sheet(params.sheet), outcome.samples, make_sheet(fine_problem.plan.scene.sheet),
+                               fine.samples, finest_factor / factor);
     }
     add(measurement);
   }

@@ -16,17 +16,17 @@ namespace cloth
 /// How much is done.
 struct BenchSettings
 {
-  double longest_horizon = 0.5;     ///< s
-  double most_node_steps = 5e7;     ///< see `horizon_of`
-  double smallest_error = 1e-7;     ///< m; a ladder ends below it
-  double most_seconds = 1.0;        ///< of processor time, of one run
-  double ratio = 2.0;               ///< between neighbouring steps of a ladder
-  int most_repeats = 5;             ///< of short runs; of those of `most_seconds` two
-  double least_timed = 0.01;        ///< s; shorter runs are made again until they come to this
-  ReferenceSettings reference;      ///< of trajectories
+  double longest_horizon = 0.5;        ///< s
+  double most_node_steps = 2e7;        ///< see `horizon_of`
+  double smallest_error = 1e-7;        ///< m; a ladder ends below it
+  double most_seconds = 1.0;           ///< of processor time, of one run
+  double ratio = 2.0;                  ///< between neighbouring steps of a ladder
+  int most_repeats = 5;                ///< of short runs; of those of `most_seconds` two
+  double least_timed = 0.01;           ///< s; shorter runs are made again until they come to this
+  ReferenceSettings reference;         ///< of trajectories
   double limited_disagreement = 1e-4;  ///< m, allowed to a reference with the strain limit
-  double limited_seconds = 8.0;     ///< of processor time, of one run towards it
-  double spatial_seconds = 20.0;    ///< of processor time, of one run of the spatial comparison; 0: there is none
+  double limited_seconds = 8.0;        ///< of processor time, of one run towards it
+  double spatial_seconds = 20.0;       ///< of processor time, of one run of the spatial comparison; 0: there is none
 
   /// In a tenth of the time: what it is for can be seen, no more.
   static BenchSettings quick();
@@ -36,8 +36,8 @@ struct BenchSettings
 class Bench
 {
 public:
-  /// `independent`, which may be null, checks the references of trajectories. Throws std::runtime_error where the folder
-  /// cannot be used.
+  /// `independent`, which may be null, checks the references of trajectories. Throws std::runtime_error where the
+  /// folder cannot be used.
   Bench(const std::string& folder, const BenchSettings& settings, Solvers solvers, std::unique_ptr<Solver> independent,
         const Provenance& provenance);
 
@@ -53,6 +53,7 @@ private:
 
   void run(const BenchScene& scene, Kind kind);
   void run_spatial(const BenchScene& scene);
+  void say_if_changed(const SceneRow& row);
   Reference reference_of(const Problem& problem, const std::string& fingerprint);
   /// Runs the solver's ladder from coarse to fine and returns the rows that came to their end.
   std::vector<Measurement> climb(const Solver& solver, const Problem& problem, const Reference& reference,

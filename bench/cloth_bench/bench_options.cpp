@@ -22,8 +22,10 @@ Exit status: 0 done, 1 no scene has a reference that can be trusted, 2 bad scene
 BenchOptions parse_bench_options(int argc, char** argv)
 {
   static const option known[] = {
-    { "out", required_argument, nullptr, 'o' }, { "quick", no_argument, nullptr, 'q' },
-    { "no-charts", no_argument, nullptr, 'n' }, { "help", no_argument, nullptr, 'h' },
+    { "out", required_argument, nullptr, 'o' },
+    { "quick", no_argument, nullptr, 'q' },
+    { "no-charts", no_argument, nullptr, 'n' },
+    { "help", no_argument, nullptr, 'h' },
     { nullptr, 0, nullptr, 0 },
   };
   BenchOptions options;

@@ -54,8 +54,7 @@ public:
       body_->m_nodes[i].m_v = vector_of(state_.velocities.row(i));
     }
     body_->m_cfg.piterations = iterations;
-    body_->m_cfg.kDP =
-        btScalar(step * problem.plan.scene.air.viscous_damping * model.areas.sum() / model.masses.sum());
+    body_->m_cfg.kDP = btScalar(step * problem.plan.scene.air.viscous_damping * model.areas.sum() / model.masses.sum());
     body_->m_cfg.collisions = 0;
     body_->setActivationState(DISABLE_DEACTIVATION);
     world_.addSoftBody(body_.get());
@@ -150,9 +149,9 @@ Outcome BulletSolver::run(const Problem& problem, double value, double most_seco
       }
     });
     outcome.samples.push_back(sheet.state_at(problem.time_of(s)));
-    outcome.status = taken < steps                                     ? Status::too_slow :
+    outcome.status = taken < steps                                 ? Status::too_slow :
                      !outcome.samples.back().positions.allFinite() ? Status::unstable :
-                                                                         Status::ok;
+                                                                     Status::ok;
   }
   clock.report(outcome);
   outcome.force_evaluations = iterations / value;

@@ -6,8 +6,8 @@ namespace cloth
 {
 
 /// Bullet's soft body as it is used for cloth, by its step, ten iterations each. Its springs are rods, whatever their
-/// stiffness, and it reckons in single precision: it comes near to stiff sheets alone. The air's drag acts as Bullet has
-/// it, a part of the velocity each step.
+/// stiffness, and it reckons in single precision: it comes near to stiff sheets alone. The air's drag acts as Bullet
+/// has it, a part of the velocity each step.
 class BulletSolver : public Solver
 {
 public:

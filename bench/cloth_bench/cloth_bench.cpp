@@ -59,8 +59,8 @@ cloth::Solvers all_solvers()
 
 int run(const cloth::BenchOptions& options, const std::string& command)
 {
-  const std::vector<cloth::BenchScene> scenes =
-      cloth::read_scenes(options.scene_files.empty() ? cloth::scenes_of_the_program(options.quick) : options.scene_files);
+  const std::vector<cloth::BenchScene> scenes = cloth::read_scenes(
+      options.scene_files.empty() ? cloth::scenes_of_the_program(options.quick) : options.scene_files);
   if (scenes.empty())
   {
     throw cloth::BenchUsageError("there are no scenes beside the program; give some");

@@ -5,8 +5,8 @@
 namespace cloth
 {
 
-/// A problem as a general solver of ordinary differential equations takes it: y' = f(t, y), y being the positions of all
-/// nodes, x, y and z one after the other, and then their velocities likewise. Pinned nodes are put where they are
+/// A problem as a general solver of ordinary differential equations takes it: y' = f(t, y), y being the positions of
+/// all nodes, x, y and z one after the other, and then their velocities likewise. Pinned nodes are put where they are
 /// whenever the right-hand side is asked for; what becomes of their own unknowns has no effect on others.
 class FirstOrderSystem
 {

@@ -10,8 +10,8 @@ namespace cloth
 {
 
 /// Times a run interval by interval. The first one counts for nothing but the time left: what a solver makes once, it
-/// makes there, and it fills the caches. How long a run may take goes by the processor's time, so that other programs do
-/// not decide which runs there are.
+/// makes there, and it fills the caches. How long a run may take goes by the processor's time, so that other programs
+/// do not decide which runs there are.
 class IntervalClock
 {
 public:

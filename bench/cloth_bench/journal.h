@@ -8,8 +8,8 @@
 namespace cloth
 {
 
-/// All measurements in a folder, kept line by line as they are made: whatever ends the program, no more is lost than the
-/// run that it was at. One program at a time may have it.
+/// All measurements in a folder, kept line by line as they are made: whatever ends the program, no more is lost than
+/// the run that it was at. One program at a time may have it.
 class Journal
 {
 public:

@@ -20,7 +20,8 @@ std::string exact(double number)
 }  // namespace
 
 const char* const measurement_header =
-    "scene,kind,fingerprint,solver,setting,value,repeat,status,nodes,rms_error,worst_error,energy_error,strain_error,seconds,"
+    "scene,kind,fingerprint,solver,setting,value,repeat,status,nodes,rms_error,worst_error,energy_error,strain_error,"
+    "seconds,"
     "seconds_per_second,force_evaluations,solves";
 
 bool is_same_row(const Measurement& one, const Measurement& other)

@@ -21,7 +21,7 @@ struct Measurement
   int repeat = 0;
   std::string status;
   int nodes = 0;
-  Errors errors;  ///< not a number where it does not apply
+  Errors errors;                    ///< not a number where it does not apply
   double seconds = 0.0;             ///< of processor time
   double seconds_per_second = 0.0;  ///< wall time per simulated second
   double force_evaluations = 0.0;   ///< per simulated second

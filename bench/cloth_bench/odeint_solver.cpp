@@ -50,8 +50,8 @@ Outcome integrate(const Problem& problem, double tolerance, double most_seconds)
   for (int s = 0; s < Problem::samples && outcome.status == Status::ok; ++s)
   {
     clock.time([&] { advance_to(problem.time_of(s)); });
-    outcome.status = outcome.status == Status::ok && system.has_diverged(time, y.data()) ? Status::unstable :
-                                                                                            outcome.status;
+    outcome.status =
+        outcome.status == Status::ok && system.has_diverged(time, y.data()) ? Status::unstable : outcome.status;
     outcome.samples.push_back(system.state_at(time, y.data()));
   }
   clock.report(outcome);

@@ -17,8 +17,8 @@ constexpr double step_of_iterations = 1.0 / 240.0;
 /// Where more than this part of its steps left its equations unsolved, a run has not converged.
 constexpr double unconverged_part = 0.01;
 
-/// An explicit method's ladder begins above the limit of velocity_verlet, at least: its own may be 0, or bound modes that
-/// the scene does not have.
+/// An explicit method's ladder begins above the limit of velocity_verlet, at least: its own may be 0, or bound modes
+/// that the scene does not have.
 double first_step(const Problem& problem, const MethodRow& row)
 {
   const Simulation simulation = simulation_of(problem, row.name, 1.0, {});
@@ -69,7 +69,7 @@ Outcome OwnSolver::run(const Problem& problem, double value, double most_seconds
 {
   MethodSettings settings;
   settings.tolerance = setting_ == Setting::tolerance ? value : settings.tolerance;
-  settings.iterations = setting_ == Setting::iterations      ? static_cast<int>(value) :
+  settings.iterations = setting_ == Setting::iterations  ? static_cast<int>(value) :
                         std::string(row_.name) == "xpbd" ? 1 :
                                                            problem.plan.scene.solver.iterations;
   const double time_step = setting_ == Setting::step       ? value :
@@ -83,10 +83,10 @@ Outcome OwnSolver::run(const Problem& problem, double value, double most_seconds
     const double end = problem.time_of(s);
     clock.time([&] { simulation.advance_to(end, [&] { return clock.is_up(); }); });
     outcome.samples.push_back(simulation.state());
-    outcome.status = simulation.divergence()                    ? Status::unstable :
-                     simulation.state().time < end              ? Status::too_slow :
+    outcome.status = simulation.divergence()                   ? Status::unstable :
+                     simulation.state().time < end             ? Status::too_slow :
                      s + 1 < Problem::samples && clock.is_up() ? Status::too_slow :
-                                                                  Status::ok;
+                                                                 Status::ok;
   }
   clock.report(outcome);
   const Simulation::Counters& counters = simulation.counters();

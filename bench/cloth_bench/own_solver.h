@@ -9,7 +9,8 @@ namespace cloth
 class OwnSolver : public Solver
 {
 public:
-  /// `setting`: step, or tolerance of a method that chooses its steps, or iterations at a fixed step of 1/240 s or less.
+  /// `setting`: step, or tolerance of a method that chooses its steps, or iterations at a fixed step of 1/240 s or
+  /// less.
   OwnSolver(const MethodRow& row, Setting setting) : row_(row), setting_(setting)
   {
   }

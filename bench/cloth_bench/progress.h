@@ -6,8 +6,8 @@
 namespace cloth
 {
 
-/// Tells how far a long work is: on a terminal in a line that is written over, with the time left; elsewhere in a line for
-/// every scene.
+/// Tells how far a long work is: on a terminal in a line that is written over, with the time left; elsewhere in a line
+/// for every scene.
 class Progress
 {
 public:

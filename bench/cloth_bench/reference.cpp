@@ -53,7 +53,8 @@ Reference reference_at(const Problem& problem, const Solver& ours, const Solver&
       }
       if (reference.growth * settings.rounding > settings.most_disagreement)
       {
-        reference.reason = "a disturbance of 1e-9 m grows " + in_short(reference.growth) + " times, and rounding with it";
+        reference.reason =
+            "a disturbance of 1e-9 m grows " + in_short(reference.growth) + " times, and rounding with it";
         break;
       }
     }
@@ -66,12 +67,11 @@ Reference reference_at(const Problem& problem, const Solver& ours, const Solver&
     reference.disagreement = rms_distance(check.samples, base.samples);
     reference.samples = base.samples;
     reference.accepted = reference.disagreement <= settings.most_disagreement;
-    reference.reason = reference.accepted ? "" :
-                                            ours.name() + " and " + other.name() + " differ by " +
-                                                in_short(reference.disagreement) + " m at a tolerance of " +
-                                                in_short(tolerance) + " m; allowed is " +
-                                                in_short(settings.most_disagreement) +
-                                                " m, 1 % of the smallest error drawn";
+    reference.reason = reference.accepted ?
+                           "" :
+                           ours.name() + " and " + other.name() + " differ by " + in_short(reference.disagreement) +
+                               " m at a tolerance of " + in_short(tolerance) + " m; allowed is " +
+                               in_short(settings.most_disagreement) + " m, 1 % of the smallest error drawn";
     if (reference.accepted)
     {
       break;

@@ -13,7 +13,7 @@ struct ReferenceSettings
   double first_tolerance = 1e-11;     ///< m, of both solvers
   double tightest_tolerance = 1e-13;  ///< m; tightened tenfold at a time while the two disagree
   double most_disagreement = 1e-9;    ///< m; 1 % of the smallest error that is to be drawn
-  double most_seconds = 60.0;         ///< of processor time, of one run
+  double most_seconds = 40.0;         ///< of processor time, of one run
   double rounding = 1e-15;            ///< m; what it may leave of a position in a run where nothing grows
   int most_halvings = 4;              ///< of the horizon
 };
@@ -29,15 +29,15 @@ struct Reference
   std::vector<ClothState> samples;  ///< at the problem's times
 };
 
-/// The motion of `problem` by dopri5, accepted when `other` comes within the disagreement allowed. A disturbance of 1e-9 m
-/// that grows so much that rounding could come to that disagreement limits the horizon. Where the two do not agree, or
-/// take too long, the horizon is halved, and in the end the problem is refused.
+/// The motion of `problem` by dopri5, accepted when `other` comes within the disagreement allowed. A disturbance of
+/// 1e-9 m that grows so much that rounding could come to that disagreement limits the horizon. Where the two do not
+/// agree, or take too long, the horizon is halved, and in the end the problem is refused.
 Reference find_reference(const Problem& problem, const Solver* other, const ReferenceSettings& settings);
 
-/// The motion with the strain limit at h -> 0: velocity_verlet at the step, of ever shorter ones, where it disagrees least
-/// with itself at twice that and with rk4, the larger of the two. It is not the shortest: what the limit's sweeps leave
-/// within their tolerance becomes speed over the step, and below some step that outweighs what the step itself does.
-/// Refused where the disagreement is more than `most_disagreement`.
+/// The motion with the strain limit at h -> 0: velocity_verlet at the step, of ever shorter ones, where it disagrees
+/// least with itself at twice that and with rk4, the larger of the two. It is not the shortest: what the limit's sweeps
+/// leave within their tolerance becomes speed over the step, and below some step that outweighs what the step itself
+/// does. Refused where the disagreement is more than `most_disagreement`.
 Reference find_limited_reference(const Problem& problem, const ReferenceSettings& settings);
 
 }  // namespace cloth

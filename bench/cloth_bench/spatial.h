@@ -13,8 +13,8 @@ namespace cloth
 /// same places. Spring stiffnesses stay: those of structural and shear springs are the sheet's own, whatever the grid.
 SceneParams refined(SceneParams scene, int factor);
 
-/// How far the nodes of a coarse grid are from those of a grid `factor` times as fine that are at the same places of the
-/// sheet: rms and worst; energy and strain are not a number, as those of two grids are not the same.
+/// How far the nodes of a coarse grid are from those of a grid `factor` times as fine that are at the same places of
+/// the sheet: rms and worst; energy and strain are not a number, as those of two grids are not the same.
 Errors errors_between_grids(const ClothModel& coarse_model, const std::vector<ClothState>& coarse,
                             const ClothModel& fine_model, const std::vector<ClothState>& fine, int factor);
 

@@ -98,9 +98,10 @@ void write_tables(const std::string& folder, const std::vector<SceneRow>& scenes
   ReplacedFile scene_table(folder + "/scenes.csv");
   ReplacedFile run_table(folder + "/runs.csv");
   scene_table.stream() << "scene,kind,accepted,horizon,reference_error,growth,reason\n";
-  run_table.stream() << "scene,kind,solver,setting,value,horizon,status,rms_error,worst_error,energy_error,strain_error,"
-                        "seconds_per_second,seconds_per_second_low,seconds_per_second_high,repeats,force_evaluations,"
-                        "solves,reference_error,nodes,tolerance_line,machine,compiler,commit\n";
+  run_table.stream()
+      << "scene,kind,solver,setting,value,horizon,status,rms_error,worst_error,energy_error,strain_error,"
+         "seconds_per_second,seconds_per_second_low,seconds_per_second_high,repeats,force_evaluations,"
+         "solves,reference_error,nodes,tolerance_line,machine,compiler,commit\n";
   for (const SceneRow& scene : scenes)
   {
     scene_table.stream() << scene.scene << ',' << scene.kind << ',' << (scene.accepted ? "yes" : "no") << ','

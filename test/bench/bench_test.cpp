@@ -257,7 +257,9 @@ TEST_F(BenchInAFolder, BeginsASceneAnewThatHasChanged)
   bench("out", two_methods());
   const std::vector<Row> before = rows("out");
   runs_ = 0;
+  testing::internal::CaptureStderr();
   bench("out", two_methods(), 1 << 30, std::string(small_scene) + "gravity: [0, 0, -5]\n");
+  EXPECT_TRUE(has(testing::internal::GetCapturedStderr(), { "small (trajectory) begins anew: " }));
   EXPECT_GT(runs_, 4);
   EXPECT_EQ(rows("out").front().at("scene"), "small");
   EXPECT_NE(rows("out").back().at("rms_error"), before.back().at("rms_error"));
@@ -270,9 +272,9 @@ TEST_F(BenchInAFolder, BeginsASceneAnewThatHasChanged)
 TEST_F(BenchInAFolder, RefusesAFolderOfAnotherMachineOrProgram)
 {
   bench("out", two_methods(), 1);
-  for (const Provenance& other : { Provenance{ "another", "a compiler", "a commit" },
-                                   Provenance{ "a machine", "another", "a commit" },
-                                   Provenance{ "a machine", "a compiler", "another" } })
+  for (const Provenance& other :
+       { Provenance{ "another", "a compiler", "a commit" }, Provenance{ "a machine", "another", "a commit" },
+         Provenance{ "a machine", "a compiler", "another" } })
   {
     try
     {
@@ -306,7 +308,8 @@ TEST_F(BenchInAFolder, RunsNothingOfASceneWithoutAReference)
 
 TEST_F(BenchInAFolder, ChartsASceneWithAStrainLimitWithItAndWithoutIt)
 {
-  const std::string limited = "cloth: {rows: 5, cols: 6, ripple: 0.02}\nstrain_limit: {max_strain: 0.05, sweeps: 1000}\n";
+  const std::string limited =
+      "cloth: {rows: 5, cols: 6, ripple: 0.02}\nstrain_limit: {max_strain: 0.05, sweeps: 1000}\n";
   BenchSettings brief = small_settings();
   brief.limited_seconds = 0.5;
   brief.limited_disagreement = 1e-3;

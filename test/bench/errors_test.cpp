@@ -80,7 +80,8 @@ TEST_F(ErrorsOfAMotion, HaveTheStrainThatIsTooMuch)
 
 TEST(RefinedSheet, HasTheCoarseNodesWhereTheyWere)
 {
-  const SceneParams coarse = scene_of("cloth: {rows: 4, cols: 6}\npins: [{name: a, nodes: [[0, 0], [2, -1], [-2, 3]]}]");
+  const SceneParams coarse =
+      scene_of("cloth: {rows: 4, cols: 6}\npins: [{name: a, nodes: [[0, 0], [2, -1], [-2, 3]]}]");
   const SceneParams fine = refined(coarse, 4);
   EXPECT_EQ(fine.sheet.rows, 13);
   EXPECT_EQ(fine.sheet.cols, 21);

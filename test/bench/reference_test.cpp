@@ -53,7 +53,8 @@ TEST(ReferenceOfAMotion, IsRefusedWithTheReasonWhereItIsTooCoarse)
   const Reference reference = find_reference(small_problem(), other_solver().get(), settings);
   EXPECT_FALSE(reference.accepted);
   EXPECT_GT(reference.disagreement, 1e-9);
-  EXPECT_TRUE(has(reference.reason, { "dopri5 and ", " differ by ", " m at a tolerance of 0.0001 m; allowed is 1e-09 m, "
+  EXPECT_TRUE(has(reference.reason, { "dopri5 and ", " differ by ",
+                                      " m at a tolerance of 0.0001 m; allowed is 1e-09 m, "
                                       "1 % of the smallest error drawn" }));
 }
 
@@ -82,7 +83,8 @@ TEST(ReferenceOfAMotion, TakesAShorterHorizonWhereADisturbanceGrowsTooMuch)
   const Reference shorter = find_reference(small_problem(0.4), other_solver().get(), settings);
   EXPECT_TRUE(shorter.accepted);
   EXPECT_LT(shorter.horizon, 0.4);
-  EXPECT_TRUE(has(shorter.reason, { "horizon shortened: over 0.4 s a disturbance of 1e-9 m grows ", " times, and rounding with it" }));
+  EXPECT_TRUE(has(shorter.reason,
+                  { "horizon shortened: over 0.4 s a disturbance of 1e-9 m grows ", " times, and rounding with it" }));
 }
 
 TEST(ReferenceOfAMotion, IsRefusedWithoutAnIndependentSolver)
@@ -108,7 +110,8 @@ TEST(ReferenceWithAStrainLimit, IsTheRuleAtShortSteps)
   EXPECT_LT(finer, 0.7 * coarser);
   EXPECT_LT(reference.disagreement, finer);
   settings.most_disagreement = 1e-9;
-  EXPECT_TRUE(has(find_limited_reference(problem, settings).reason, { "differs from itself at twice that or from rk4" }));
+  EXPECT_TRUE(
+      has(find_limited_reference(problem, settings).reason, { "differs from itself at twice that or from rk4" }));
 }
 
 class ReferenceFile : public InAFolder
