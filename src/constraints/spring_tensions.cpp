@@ -108,29 +108,34 @@ void add_shifts(const SpringRow& positions, const Tensions& tensions, double lon
   parabola.curvature += compliance * squares;
 }
 
-/// Whether the square of a length between the two stretches of n nodes is above `squared`, their inverse masses not
-/// both 0.
-bool any_longer(const Vectors& positions, const double* inverse_masses, int i, int offset, int n, double squared)
+/// How long the springs between two stretches of n nodes are, given the squares of the lengths from which on one that
+/// is not held at both ends is taut, and too long.
+SpringTensions::Lengths lengths_of(const SpringRow& row, double taut, double too_long)
 {
-  const double* const w_i = inverse_masses + i;
-  const double* const w_j = w_i + offset;
-  const double* const x_i = positions.col(0).data() + i;
-  const double* const y_i = positions.col(1).data() + i;
-  const double* const z_i = positions.col(2).data() + i;
-  const double* const x_j = x_i + offset;
-  const double* const y_j = y_i + offset;
-  const double* const z_j = z_i + offset;
-  std::int64_t any = 0;
-  const int padded = (n + row_padding - 1) / row_padding * row_padding;
+  const double* const w_i = row.w_i;
+  const double* const w_j = row.w_j;
+  const double* const x_i = row.i[0];
+  const double* const y_i = row.i[1];
+  const double* const z_i = row.i[2];
+  const double* const x_j = row.j[0];
+  const double* const y_j = row.j[1];
+  const double* const z_j = row.j[2];
+  const int n = row.n;
+  const int padded = row.padded;
+  std::int64_t any_taut = 0;
+  std::int64_t any_too_long = 0;
   for (int k = 0; k < padded; ++k)
   {
     const double x = x_j[k] - x_i[k];
     const double y = y_j[k] - y_i[k];
     const double z = z_j[k] - z_i[k];
-    const bool is_longer = x * x + y * y + z * z > squared && w_i[k] + w_j[k] > 0.0;
-    any |= is_longer && k < n ? 1 : 0;
+    const double square = x * x + y * y + z * z;
+    const bool counts = w_i[k] + w_j[k] > 0.0 && k < n;
+    any_taut |= counts && square > taut ? 1 : 0;
+    any_too_long |= counts && square > too_long ? 1 : 0;
   }
-  return any != 0;
+  using Lengths = SpringTensions::Lengths;
+  return any_too_long != 0 ? Lengths::too_long : any_taut != 0 ? Lengths::taut : Lengths::slack;
 }
 
 }  // namespace
@@ -180,8 +185,8 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
   std::fill(moved_at_.begin(), moved_at_.end(), now_);
   StrainLimit::Report report;
   report.moved = pull_as_before(inverse_masses, positions);
-  bool is_first_guess = report.moved;
-  while (find_too_long(inverse_masses, positions) || is_first_guess)
+  Lengths longest = find_taut_blocks(inverse_masses, positions);
+  for (bool goes_on = report.moved || longest != Lengths::slack; goes_on; goes_on = longest == Lengths::too_long)
   {
     if (report.sweeps >= passes)
     {
@@ -189,9 +194,9 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
       break;
     }
     relax_taut_blocks(report.sweeps % 2 == 1, inverse_masses, positions);
-    is_first_guess = false;
     report.moved = true;
     ++report.sweeps;
+    longest = find_taut_blocks(inverse_masses, positions);
   }
   if (shifts != nullptr)
   {
@@ -289,30 +294,33 @@ void SpringTensions::scale_tensions(double factor)
   });
 }
 
-bool SpringTensions::find_too_long(const Eigen::VectorXd& inverse_masses, const Vectors& positions)
+SpringTensions::Lengths SpringTensions::find_taut_blocks(const Eigen::VectorXd& inverse_masses, Vectors& positions)
 {
-  bool found = false;
+  Lengths longest = Lengths::slack;
   in_widest_vectors([&](auto) {
     for_each_block(false, [&](Batch& batch, const Block& block) {
-      long& found_short = batch.found_short_at[block.index];
-      if (last_move(block.node, block.n) <= found_short &&
-          last_move(block.node + batch.springs.offset, block.n) <= found_short)
+      long& found_slack = batch.found_slack_at[block.index];
+      if (last_move(block.node, block.n) <= found_slack &&
+          last_move(block.node + batch.springs.offset, block.n) <= found_slack)
       {
         return;
       }
-      const double longest = batch.springs.rest_length * (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance_of_tensions));
-      if (any_longer(positions, inverse_masses.data(), block.node, batch.springs.offset, block.n, longest * longest))
+      const double taut = target_length(batch);
+      const double too_long = batch.springs.rest_length * (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance));
+      const SpringRow row(inverse_masses.data(), positions, block.node, batch.springs.offset, block.n);
+      const Lengths found = lengths_of(row, taut * taut, too_long * too_long);
+      longest = std::max(longest, found);
+      if (found == Lengths::slack)
       {
-        batch.is_taut[block.index] = 1;
-        found = true;
+        found_slack = now_;
       }
       else
       {
-        found_short = now_;
+        batch.is_taut[block.index] = 1;
       }
     });
   });
-  return found;
+  return longest;
 }
 
 void SpringTensions::relax_taut_blocks(bool backwards, const Eigen::VectorXd& inverse_masses, Vectors& positions)

@@ -29,6 +29,14 @@ namespace cloth
 class SpringTensions : public Shortening
 {
 public:
+  /// The longest of some springs.
+  enum class Lengths
+  {
+    slack,
+    taut,     ///< as long as tensions hold a spring, or longer: it gets one in the next pass
+    too_long  ///< longer than the limit and its tolerance allow: there must be a next pass
+  };
+
   explicit SpringTensions(const ClothModel& model);
 
   StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, Vectors& positions,
@@ -49,8 +57,8 @@ private:
     SpringBatch springs;
     int blocks_a_row;
     std::vector<double> tensions[3];   ///< x, y, z of one for each spring, kg m
-    std::vector<char> is_taut;         ///< for each block: some spring is taut, or was found too long
-    std::vector<long> found_short_at;  ///< for each block: when no spring was too long
+    std::vector<char> is_taut;         ///< for each block: some spring has a tension, or was found taut
+    std::vector<long> found_slack_at;  ///< for each block: when all of its springs were slack
   };
 
   /// At most spring_row_size springs in a row: the n springs of a batch from number `first` on, which begin at `node`
@@ -70,7 +78,7 @@ private:
   double target_length(const Batch& batch) const;
   /// Pulls with the tensions of the last step times the factor that is best for them. False: they are of no use.
   bool pull_as_before(const Eigen::VectorXd& inverse_masses, Vectors& positions);
-  bool find_too_long(const Eigen::VectorXd& inverse_masses, const Vectors& positions);
+  Lengths find_taut_blocks(const Eigen::VectorXd& inverse_masses, Vectors& positions);
   void relax_taut_blocks(bool backwards, const Eigen::VectorXd& inverse_masses, Vectors& positions);
   void add_tensions_to(Vectors& shifts);
   void let_go();

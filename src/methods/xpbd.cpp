@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/inverse_root.h"
+#include "cloth_sim/model/spring_rows.h"
+#include "cloth_sim/model/wide_vectors.h"
+
 #include "rows.h"
 
 namespace cloth
@@ -15,8 +19,8 @@ namespace
 ///   lambda = -(|l| - l0 + gamma h n . (v_j - v_i)) / ((1 + gamma) (1/m_i + 1/m_j) + 1/(k h^2)),  gamma = c/(k h)
 ///
 /// and its ends move by -+ lambda n/m at once, Gauss-Seidel's way. With the compliance times 0 this is position-based
-/// dynamics: every spring is made as long as it is at rest, whatever its stiffness. Velocities are corrected along with
-/// the positions, which is v = (x' - x)/h without its rounding error.
+/// dynamics: every spring is made as long as it is at rest, whatever its stiffness. The velocities follow from the
+/// positions, v = (x' - x)/h.
 class ExtendedPositionBasedDynamics : public Method
 {
 public:
@@ -27,26 +31,29 @@ public:
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
     const ClothModel& model = dynamics.model();
-    inverse_masses_ = model.masses.cwiseInverse();
-    for (int i = 0; i < model.nodes(); ++i)
-    {
-      inverse_masses_[i] = dynamics.pins().holds(i) ? 0.0 : inverse_masses_[i];
-    }
+    make_room_for(model.nodes());
+    dynamics.pins().find_inverse_masses(model.masses, inverse_masses_);
     const double begin = state.time;
     const double substep = h / substeps_;
     for (int s = 1; s <= substeps_; ++s)
     {
+      before_.topRows(model.nodes()) = state.positions;
       predict(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       dynamics.pins().impose(state.time, state.positions, state.velocities);
+      ways_.topRows(model.nodes()) = substep * state.velocities;
+      for (const Pin& pin : dynamics.pins().all())
+      {
+        ways_(pin.nodes, Eigen::all) = state.positions(pin.nodes, Eigen::all) - before_(pin.nodes, Eigen::all);
+      }
       if (records())
       {
         record_external_forces(dynamics, substep, state);
       }
-      for (const SpringBatch& batch : model.springs)
-      {
-        project(batch, substep, state);
-      }
+      project(model, substep);
+      state.velocities = ways_.topRows(model.nodes()) / substep;
+      state.positions = before_.topRows(model.nodes()) + ways_.topRows(model.nodes());
+      dynamics.pins().impose(state.time, state.positions, state.velocities);
     }
     StepReport report;
     report.force_evaluations = substeps_;
@@ -54,6 +61,16 @@ public:
   }
 
 private:
+  void make_room_for(int nodes)
+  {
+    if (inverse_masses_.size() != nodes + row_padding)
+    {
+      inverse_masses_.setZero(nodes + row_padding);
+      before_.setZero(nodes + row_padding, 3);
+      ways_.setZero(nodes + row_padding, 3);
+    }
+  }
+
   void predict(const Dynamics& dynamics, double h, ClothState& state)
   {
     dynamics.external_forces_on_all(state.time, accelerations_);
@@ -70,21 +87,32 @@ private:
     add_impulses(h, accelerations_);
   }
 
-  /// In two colours: springs whose first ends lie in every second stretch of `offset` nodes share no node. The order is
-  /// always the same, and so is the result.
-  void project(const SpringBatch& batch, double h, ClothState& state)
+  void record(const RowChanges& changes, int node, int offset, int n, double h)
   {
-    const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h), compliance_ / (batch.stiffness * h * h),
-                       batch.rest_length };
-    for (const int colour : { 0, 1 })
+    for (int k = 0; k < n; ++k)
     {
-      for_each_spring(batch, [&](int i, int j) {
-        if (i / batch.offset % 2 == colour)
-        {
-          project(i, j, gains, h, state);
-        }
-      });
+      const Eigen::RowVector3d impulse = Eigen::RowVector3d(changes.x[k], changes.y[k], changes.z[k]) / h;
+      impulses().row(node + k) += impulse;
+      impulses().row(node + k + offset) -= impulse;
     }
+  }
+
+  /// Batch by batch, in two colours: springs whose first ends lie in every second stretch of `offset` nodes share no
+  /// node. In another order long steps may be unstable.
+  void project(const ClothModel& model, double h)
+  {
+    in_widest_vectors([&](auto arithmetic) {
+      for (const SpringBatch& batch : model.springs)
+      {
+        for (const int colour : { 0, 1 })
+        {
+          for (int r = 0; r < batch.rows; ++r)
+          {
+            project_row<arithmetic.has_fused_multiply_add>(batch, r, colour, h);
+          }
+        }
+      }
+    });
   }
 
   struct Gains
@@ -94,38 +122,104 @@ private:
     double rest_length;
   };
 
-  void project(int i, int j, const Gains& gains, double h, ClothState& state)
+  /// The springs of a row that have the colour: piece by piece of a stretch where stretches are long, else by choice.
+  template <bool fused>
+  void project_row(const SpringBatch& batch, int r, int colour, double h)
   {
-    const Eigen::RowVector3d l = state.positions.row(j) - state.positions.row(i);
-    const double length = l.norm();
-    const double inverse_masses = inverse_masses_[i] + inverse_masses_[j];
-    if (length == 0.0 || inverse_masses == 0.0)
+    const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h), compliance_ / (batch.stiffness * h * h),
+                       batch.rest_length };
+    const int offset = batch.offset;
+    const int begin = batch.first + r * batch.row_stride;
+    const int end = begin + batch.cols;
+    if (offset <= longest_along_a_row)
     {
+      for (int node = begin; node < end; node += spring_row_size)
+      {
+        project_block<fused>(
+            node, offset, std::min(spring_row_size, end - node), gains,
+            [=](int k) { return ((node + k) & offset) == colour * offset; }, h);
+      }
       return;
     }
-    const Eigen::RowVector3d n = l / length;
-    const double approach = h * n.dot(state.velocities.row(j) - state.velocities.row(i));
-    const double lambda = -(length - gains.rest_length + gains.damping * approach) /
-                          ((1.0 + gains.damping) * inverse_masses + gains.compliance);
-    if (records())
+    for (int stretch = begin / offset; stretch * offset < end; ++stretch)
     {
-      impulses().row(i) -= lambda / h * n;
-      impulses().row(j) += lambda / h * n;
+      const int end_here = std::min(end, (stretch + 1) * offset);
+      for (int node = std::max(begin, stretch * offset); stretch % 2 == colour && node < end_here;
+           node += spring_row_size)
+      {
+        project_block<fused>(
+            node, offset, std::min(spring_row_size, end_here - node), gains, [](int) { return true; }, h);
+      }
     }
-    move(i, -lambda * inverse_masses_[i] * n, h, state);
-    move(j, lambda * inverse_masses_[j] * n, h, state);
   }
 
-  static void move(int i, const Eigen::RowVector3d& way, double h, ClothState& state)
+  template <bool fused, typename IsChosen>
+  void project_block(int node, int offset, int n, const Gains& gains, IsChosen&& is_chosen, double h)
   {
-    state.positions.row(i) += way;
-    state.velocities.row(i) += way / h;
+    const SpringRow ways(inverse_masses_.data(), ways_, node, offset, n);
+    const SpringRow before(inverse_masses_.data(), before_, node, offset, n);
+    RowChanges changes;
+    find_changes<fused>(ways, before, gains, is_chosen, changes);
+    move_ends(ways, changes);
+    if (records())
+    {
+      record(changes, node, offset, n, h);
+    }
   }
+
+  template <bool fused, typename IsChosen>
+  static void find_changes(const SpringRow& ways, const SpringRow& before, const Gains& gains, IsChosen&& is_chosen,
+                           RowChanges& changes)
+  {
+    const double rest_length = gains.rest_length;
+    const double damping = gains.damping;
+    const double compliance = gains.compliance;
+    const double* const w_i = ways.w_i;
+    const double* const w_j = ways.w_j;
+    const double* const way_x_i = ways.i[0];
+    const double* const way_y_i = ways.i[1];
+    const double* const way_z_i = ways.i[2];
+    const double* const way_x_j = ways.j[0];
+    const double* const way_y_j = ways.j[1];
+    const double* const way_z_j = ways.j[2];
+    const double* const x_i = before.i[0];
+    const double* const y_i = before.i[1];
+    const double* const z_i = before.i[2];
+    const double* const x_j = before.j[0];
+    const double* const y_j = before.j[1];
+    const double* const z_j = before.j[2];
+    const int n = ways.n;
+    const int padded = ways.padded;
+#pragma GCC ivdep
+    for (int k = 0; k < padded; ++k)
+    {
+      const double way_x = way_x_j[k] - way_x_i[k];
+      const double way_y = way_y_j[k] - way_y_i[k];
+      const double way_z = way_z_j[k] - way_z_i[k];
+      const double x = x_j[k] - x_i[k] + way_x;
+      const double y = y_j[k] - y_i[k] + way_y;
+      const double z = z_j[k] - z_i[k] + way_z;
+      const double square = x * x + y * y + z * z;
+      const double inverse = inverse_root<fused>(square);
+      const double w = w_i[k] + w_j[k];
+      const double lengthening = inverse * (x * way_x + y * way_y + z * way_z);
+      const double resistance = (1.0 + damping) * w + compliance;
+      const double lambda = (square * inverse - rest_length + damping * lengthening) / resistance;
+      const double part = is_chosen(k) && k < n && w > 0.0 ? lambda * inverse : 0.0;
+      changes.x[k] = part * x;
+      changes.y[k] = part * y;
+      changes.z[k] = part * z;
+    }
+  }
+
+  static constexpr int longest_along_a_row = 2;  ///< offset of the flex springs along a row
 
   int substeps_;
   double compliance_;
   Eigen::VectorXd inverse_masses_;
   Vectors accelerations_;
+  Vectors before_;  ///< positions at the substep's begin
+  Vectors ways_;    ///< from there, m: velocities follow from them without the rounding of positions
 };
 
 }  // namespace

@@ -65,8 +65,8 @@ TEST(SpringTensions, KeepTheLimitAtEveryStepOfASwing)
     ASSERT_TRUE(simulation.advance_to(5e-4 * step));
     worst = std::max(worst, max_strain(simulation.model(), simulation.state().positions));
   }
-  EXPECT_LE(worst, limit * (1.0 + StrainLimit::tolerance_of_tensions) + 1e-12);
-  EXPECT_GT(worst, limit);
+  EXPECT_LE(worst, limit * (1.0 + StrainLimit::tolerance) + 1e-12);
+  EXPECT_GT(worst, limit * (1.0 - StrainLimit::tolerance));
 }
 
 /// Tensions that are carried over as they were, without a look at whether they still help, tear this sheet to pieces.

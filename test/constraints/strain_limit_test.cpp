@@ -141,9 +141,15 @@ protected:
     state_.velocities = noise.vectors(model_.nodes());
   }
 
-  static double tolerance()
+  /// The nearest sheet that obeys the limit is harder to find from nothing than any sheet that does.
+  static int enough_passes()
   {
-    return GetParam() == LimitSolver::tensions ? StrainLimit::tolerance_of_tensions : StrainLimit::tolerance;
+    return GetParam() == LimitSolver::tensions ? 10000 : 1000;
+  }
+
+  StrainLimit::Report apply(int passes)
+  {
+    return StrainLimit(model_, { 0.1, passes, GetParam() }).apply(model_, pins_, 0.01, state_);
   }
 
   const ClothModel model_ = make_sheet(small_sheet());
@@ -155,24 +161,24 @@ INSTANTIATE_TEST_SUITE_P(StrainLimit, StretchedSheet, both_solvers, name_of_solv
 
 TEST_P(StretchedSheet, SweepsReachTheLimitEverywhere)
 {
-  const StrainLimit::Report report = StrainLimit(model_, { 0.1, 1000, GetParam() }).apply(model_, pins_, 0.01, state_);
+  const StrainLimit::Report report = apply(enough_passes());
   EXPECT_TRUE(report.reached);
-  EXPECT_LE(max_strain(model_, state_.positions), 0.1 * (1.0 + tolerance()) + 1e-15);
+  EXPECT_LE(max_strain(model_, state_.positions), 0.1 * (1.0 + StrainLimit::tolerance) + 1e-15);
 }
 
 TEST_P(StretchedSheet, FewSweepsDoNotAndSaySo)
 {
-  const StrainLimit::Report report = StrainLimit(model_, { 0.1, 1, GetParam() }).apply(model_, pins_, 0.01, state_);
+  const StrainLimit::Report report = apply(1);
   EXPECT_EQ(report.sweeps, 1);
   EXPECT_FALSE(report.reached);
-  EXPECT_GT(max_strain(model_, state_.positions), 0.1 * (1.0 + tolerance()));
+  EXPECT_GT(max_strain(model_, state_.positions), 0.1 * (1.0 + StrainLimit::tolerance));
 }
 
 TEST_P(StretchedSheet, MomentumOfAFreeSheetStays)
 {
   const Eigen::Vector3d before = momentum_of(model_, state_);
   const Eigen::RowVector3d middle = model_.masses.transpose() * state_.positions;
-  StrainLimit(model_, { 0.1, 1000, GetParam() }).apply(model_, pins_, 0.01, state_);
+  apply(enough_passes());
   EXPECT_LT((momentum_of(model_, state_) - before).norm(), 1e-13);
   EXPECT_LT((model_.masses.transpose() * state_.positions - middle).norm(), 1e-15);
 }
@@ -181,7 +187,7 @@ TEST_P(StretchedSheet, PinnedNodesStayAndTheRestObeys)
 {
   pins_.hold(still_pin("corner", { 0 }, state_.positions));
   const Eigen::RowVector3d corner = state_.positions.row(0);
-  const StrainLimit::Report report = StrainLimit(model_, { 0.1, 1000, GetParam() }).apply(model_, pins_, 0.01, state_);
+  const StrainLimit::Report report = apply(enough_passes());
   EXPECT_EQ(state_.positions.row(0), corner);
   EXPECT_TRUE(report.reached);
 }

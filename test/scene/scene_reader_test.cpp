@@ -34,7 +34,7 @@ springs:
   structural: {stiffness: 100, damping: 0.01}
   shear:      {stiffness: 100, damping: 0.01}
   flex:       {stiffness: 10,  damping: 0.0}
-strain_limit: {max_strain: 0.1, sweeps: 30, solver: sweeps}
+strain_limit: {max_strain: 0.1, sweeps: 30, solver: tensions}
 air:
   viscous_damping: 0.3
   wind_coupling: 1.0
@@ -125,7 +125,7 @@ springs:
   structural: {stiffness: 2.1, damping: 2.2}
   shear: {stiffness: 2.3, damping: 2.4}
   flex: {stiffness: 2.5, damping: 2.6}
-strain_limit: {max_strain: 3.1, sweeps: 7, solver: tensions}
+strain_limit: {max_strain: 3.1, sweeps: 7, solver: sweeps}
 air: {viscous_damping: 4.1, wind_coupling: 4.2, wind: [10, 11, 12],
       gusts: {strength: 4.3, time_scale: 4.4, seed: 8}}
 pins:
@@ -164,7 +164,7 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.sheet.flex.damping, 2.6);
   EXPECT_EQ(scene.strain_limit.max_strain, 3.1);
   EXPECT_EQ(scene.strain_limit.sweeps, 7);
-  EXPECT_EQ(scene.strain_limit.solver, LimitSolver::tensions);
+  EXPECT_EQ(scene.strain_limit.solver, LimitSolver::plain_sweeps);
   EXPECT_EQ(scene.air.viscous_damping, 4.1);
   EXPECT_EQ(scene.air.wind_coupling, 4.2);
   EXPECT_EQ(scene.air.wind, Vector3d(10, 11, 12));

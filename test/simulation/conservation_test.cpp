@@ -82,7 +82,7 @@ TEST_P(Conservation, MomentumOfAFreeSheetStaysWithTheStrainLimitActing)
   const Eigen::Vector3d before = momentum_of(simulation.model(), simulation.state());
   const double scale = scale_of(simulation.model(), simulation.state());
   simulation.advance_to(1000.0 * setup.time_step);
-  EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps);
+  EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps / 10);
   EXPECT_LT((momentum_of(simulation.model(), simulation.state()) - before).norm(), 1e-12 * scale);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -60,7 +61,8 @@ protected:
     const Eigen::Vector3d change = momentum_of(model, simulation.state()) - before;
     const Eigen::Vector3d expected = (time - begin) * (model.masses.sum() * gravity - on_holders);
     // What a step leaves: rounding, of positions too over a short step; or the rest of the implicit methods' equations.
-    const double a_step = GetParam().linear_solves > 0 ? 1e-9 : 1e-12;
+    const double rounding = 1e-12 + std::numeric_limits<double>::epsilon() * model.width / simulation.time_step();
+    const double a_step = GetParam().linear_solves > 0 ? 1e-9 : rounding;
     const double fastest = std::sqrt(simulation.state().velocities.rowwise().squaredNorm().maxCoeff());
     const double steps = static_cast<double>(simulation.counters().steps - steps_before);
     EXPECT_LT((change - expected).norm(), a_step * steps * model.masses.sum() * (1.0 + fastest));
@@ -88,7 +90,7 @@ TEST_P(Reactions, KeepTheBalanceOfMomentumWithTheStrainLimitActing)
   {
     expect_balance(0.1 + k / 30.0, simulation);
   }
-  EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps);
+  EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps / 10);
 }
 
 TEST_P(Reactions, LeaveTheMotionAsItIs)

@@ -185,7 +185,7 @@ TEST_P(EveryMethodInASimulation, ObeysTheStrainLimitAndItsPinsInWind)
   }
   EXPECT_GT(worst, 0.09);
   EXPECT_LT(worst, 0.1001);
-  EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps);
+  EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps / 10);
   const double angle = 2.0 * M_PI * simulation.state().time;
   const Eigen::RowVector3d moved = std::sin(angle) * Eigen::RowVector3d(0.0, 0.1, 0.05);
   EXPECT_EQ(simulation.state().positions.row(0), start.row(0));

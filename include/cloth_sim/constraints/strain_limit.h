@@ -22,7 +22,7 @@ struct StrainLimitProperties
 {
   double max_strain = 0.1;  ///< critical deformation rate tau_c; 0: no limit
   int sweeps = 30;          ///< most passes over the springs after a step
-  LimitSolver solver = LimitSolver::plain_sweeps;
+  LimitSolver solver = LimitSolver::tensions;
 };
 
 class Shortening;
@@ -32,18 +32,16 @@ class Shortening;
 /// by inverse mass; a pinned end stays. Velocities follow: v <- v + (x_corrected - x)/h; without this the method is
 /// unstable. The momentum of what is not pinned stays.
 ///
-/// The plain sweeps shorten every spring to exactly max_strain. Tensions shorten to a margin below it, which is at its
-/// least, half a percent of max_strain, while steps need few passes.
+/// The plain sweeps shorten every spring to exactly max_strain. Tensions hold springs at a margin below it, which is at
+/// its least while steps need few passes, and grows while they need many.
 class StrainLimit
 {
 public:
-  /// A strain this much above max_strain, relative to it, counts as reached by plain sweeps. What a spring is shortened by
-  /// from there becomes speed, over the step: a larger tolerance throws nodes about in short steps.
+  /// A strain this much above max_strain, relative to it, counts as reached. What a spring is shortened by from there
+  /// becomes speed, over the step: a larger tolerance throws nodes about in short steps.
   static constexpr double tolerance = 5e-4;
-  /// And by tensions.
-  static constexpr double tolerance_of_tensions = 0.02;
   /// Where tensions hold springs below max_strain, relative to it.
-  static constexpr double least_margin = 0.005;
+  static constexpr double least_margin = 5e-4;
   static constexpr double most_margin = 0.15;
 
   StrainLimit(const ClothModel& model, const StrainLimitProperties& properties);
