@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws the stability map from the CSV that the program stability_map (make stability_map) writes in half a minute:
 
-    stability_map stability_map.csv
-    bench/plot_stability_map.py stability_map.csv docs/images/stability_map
+    stability_map bench/stability_map.csv
+    bench/plot_stability_map.py bench/stability_map.csv docs/images/stability_map
 
 writes docs/images/stability_map.png and .svg.
 """
@@ -17,25 +17,33 @@ import matplotlib.pyplot as plt
 MEASURED = "#b3282d"
 PREDICTED = "#1f4e79"
 STABLE = "#dce8f3"
+COLUMNS = 3
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    methods = read_map(sys.argv[1])
+    draw(sys.argv[1], sys.argv[2])
+
+
+def draw(csv_path, out):
+    """Writes out.png and out.svg."""
+    methods = read_map(csv_path)
     limited = {name: rows for name, rows in methods.items() if is_limited(rows)}
     unlimited = [name for name in methods if name not in limited]
 
     set_style()
-    figure = plt.figure(figsize=(9.0, 7.6), layout="constrained")
-    grid = figure.add_gridspec(3, 3, height_ratios=[1.0, 1.0, 0.7])
-    draw_maps(figure, grid, limited)
-    draw_ratios(figure.add_subplot(grid[2, :2]), limited)
-    name_unlimited(figure.add_subplot(grid[2, 2]), unlimited)
+    lines = -(-len(limited) // COLUMNS)
+    figure = plt.figure(figsize=(9.0, 1.96 + 2.82 * lines), constrained_layout=True)
+    grid = figure.add_gridspec(lines + 1, COLUMNS, height_ratios=[1.0] * lines + [0.7])
+    draw_maps(figure, grid, limited, lines)
+    draw_ratios(figure.add_subplot(grid[lines, :2]), limited)
+    name_unlimited(figure.add_subplot(grid[lines, 2]), unlimited)
     for ending in ("png", "svg"):
         # Without date and version the same map gives the same file.
         metadata = {"Date": None, "Creator": None} if ending == "svg" else {"Software": None}
-        figure.savefig("{}.{}".format(sys.argv[2], ending), dpi=150, metadata=metadata)
+        figure.savefig("{}.{}".format(out, ending), dpi=150, metadata=metadata)
+    plt.close(figure)
 
 
 def read_map(path):
@@ -61,6 +69,7 @@ def column(rows, key):
 
 
 def set_style():
+    plt.rcdefaults()
     plt.rcParams.update({
         "font.size": 9,
         "axes.titlesize": 10,
@@ -70,11 +79,11 @@ def set_style():
     })
 
 
-def draw_maps(figure, grid, limited):
+def draw_maps(figure, grid, limited, lines):
     highest = 1.06 * max(max(column(rows, "measured")) for rows in limited.values())
     first = None
     for place, (name, rows) in enumerate(limited.items()):
-        axes = figure.add_subplot(grid[place // 3, place % 3], sharex=first, sharey=first)
+        axes = figure.add_subplot(grid[place // COLUMNS, place % COLUMNS], sharex=first, sharey=first)
         first = first or axes
         ratios = column(rows, "zeta")
         predicted = column(rows, "predicted")
@@ -85,10 +94,10 @@ def draw_maps(figure, grid, limited):
         axes.set_title(name)
         axes.set_xlim(0.0, 2.0)
         axes.set_ylim(0.0, highest)
-        axes.tick_params(labelleft=place % 3 == 0, labelbottom=place // 3 == 1)
-        if place % 3 == 0:
+        axes.tick_params(labelleft=place % COLUMNS == 0, labelbottom=place // COLUMNS == lines - 1)
+        if place % COLUMNS == 0:
             axes.set_ylabel(r"longest stable step  $z = \omega h$")
-        if place // 3 == 1:
+        if place // COLUMNS == lines - 1:
             axes.set_xlabel(r"damping ratio  $\zeta$")
     first.text(1.0, 0.22, "stable", color=PREDICTED, ha="center")
     first.legend(frameon=False, loc="upper right")

@@ -2,10 +2,14 @@
 # Nor of an installation.
 #catkin_lint: ignore uninstalled_target
 
-foreach(figures IN ITEMS method_table stability_map)
-  add_executable(${figures} EXCLUDE_FROM_ALL bench/${figures}.cpp)
-  target_link_libraries(${figures} cloth_core)
-endforeach()
+add_executable(method_table EXCLUDE_FROM_ALL bench/method_table.cpp)
+target_link_libraries(method_table cloth_core)
+
+add_executable(stability_map EXCLUDE_FROM_ALL
+  bench/measured_stability.cpp
+  bench/stability_map.cpp
+)
+target_link_libraries(stability_map cloth_core)
 
 find_package(benchmark QUIET)
 if(benchmark_FOUND)

@@ -15,7 +15,7 @@ install(DIRECTORY include/${PROJECT_NAME}/
 install(DIRECTORY bench/
   DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/bench
   USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "*.py" PATTERN "scenes/*.yaml"
+  FILES_MATCHING PATTERN "*.py" PATTERN "scenes/*.yaml" PATTERN stability_map.csv
   PATTERN cloth_bench EXCLUDE
   PATTERN __pycache__ EXCLUDE
 )

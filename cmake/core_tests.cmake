@@ -95,3 +95,16 @@ cloth_add_test(bench
 target_link_libraries(test_bench cloth_bench_parts)
 target_compile_definitions(test_bench PRIVATE CLOTH_BENCH="$<TARGET_FILE:cloth_bench>")
 add_dependencies(test_bench cloth_bench)
+
+# What makes charts of measurements is tested in Python; without matplotlib the charts themselves are skipped.
+if(CLOTH_SIM_WITH_ROS)
+  set(chart_results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/python-charts.xml)
+  catkin_run_tests_target(python charts python-charts.xml
+    COMMAND "${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/run.py ${chart_results}"
+  )
+else()
+  find_program(CLOTH_SIM_PYTHON python3)
+  if(CLOTH_SIM_PYTHON)
+    add_test(NAME charts COMMAND ${CLOTH_SIM_PYTHON} ${PROJECT_SOURCE_DIR}/test/bench/run.py)
+  endif()
+endif()

@@ -75,7 +75,7 @@ install(DIRECTORY config launch
 install(DIRECTORY bench/
   DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/bench
   USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "*.py" PATTERN "scenes/*.yaml"
+  FILES_MATCHING PATTERN "*.py" PATTERN "scenes/*.yaml" PATTERN stability_map.csv
   PATTERN cloth_bench EXCLUDE
   PATTERN __pycache__ EXCLUDE
 )
