@@ -233,7 +233,7 @@ std::vector<Measurement> Bench::climb(const Solver& solver, const Problem& probl
   like.solver = solver.name();
   like.setting = name_of(solver.setting());
   const double smallest_error = std::max(problem.kind == Kind::limited ? 0.0 : settings_.smallest_error,
-                                         resolution_of(row.kind) * reference.disagreement);
+                                         resolution * reference.disagreement);
   std::vector<Measurement> complete;
   double expected = 0.0;
   double before = 0.0;

@@ -34,10 +34,10 @@ struct Reference
 /// agree, or take too long, the horizon is halved, and in the end the problem is refused.
 Reference find_reference(const Problem& problem, const Solver* other, const ReferenceSettings& settings);
 
-/// The motion with the strain limit at h -> 0: velocity_verlet at the step, of ever shorter ones, where it disagrees
-/// least with itself at twice that and with rk4, the larger of the two. It is not the shortest: what the limit's sweeps
-/// leave within their tolerance becomes speed over the step, and below some step that outweighs what the step itself
-/// does. Refused where the disagreement is more than `most_disagreement`.
+/// The motion with the strain limit at h -> 0: velocity_verlet at the step, of ever shorter ones, where it disagrees least
+/// with itself at twice that and with rk4, the larger of the two. That need not be the shortest: what the limit leaves
+/// within its tolerance becomes speed over the step, and below some step may outweigh what the step itself does.
+/// Refused where the disagreement is more than `most_disagreement`.
 Reference find_limited_reference(const Problem& problem, const ReferenceSettings& settings);
 
 }  // namespace cloth

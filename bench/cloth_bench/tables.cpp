@@ -49,7 +49,7 @@ bool belongs_to(const Measurement& measurement, const SceneRow& scene)
 
 bool is_drawn(const Measurement& measurement, const SceneRow& scene)
 {
-  return !measurement.is_complete() || !(measurement.errors.rms < resolution_of(scene.kind) * scene.reference_error);
+  return !measurement.is_complete() || !(measurement.errors.rms < resolution * scene.reference_error);
 }
 
 std::vector<double> times_of(const Measurement& row, const Journal& journal)
@@ -86,11 +86,6 @@ void write_row(std::ostream& stream, const Measurement& row, const SceneRow& sce
 }
 
 }  // namespace
-
-double resolution_of(const std::string& kind)
-{
-  return kind == name_of(Kind::limited) ? 10.0 : 100.0;
-}
 
 void write_tables(const std::string& folder, const std::vector<SceneRow>& scenes, const Journal& journal,
                   const Provenance& provenance)

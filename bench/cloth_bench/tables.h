@@ -23,9 +23,8 @@ struct SceneRow
   double tolerance = 0.0;  ///< m, that of the scene
 };
 
-/// Errors below so many times the reference's own are not told apart from it: such rows are not written. With the
-/// strain limit there is no motion that is independent of the method, and a tenth has to do.
-double resolution_of(const std::string& kind);
+/// Errors below so many times the reference's own are not told apart from it: such rows are not written.
+constexpr double resolution = 100.0;
 
 /// Writes scenes.csv and runs.csv into `folder`, each whole or not at all. A row of runs.csv is what all repeats of a
 /// run have come to: errors of the first, the median, lowest and highest time. What the columns mean stands in

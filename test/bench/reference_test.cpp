@@ -50,6 +50,7 @@ TEST(ReferenceOfAMotion, IsRefusedWithTheReasonWhereItIsTooCoarse)
   ReferenceSettings settings;
   settings.first_tolerance = 1e-3;
   settings.tightest_tolerance = 1e-4;
+  settings.most_halvings = 0;
   const Reference reference = find_reference(small_problem(), other_solver().get(), settings);
   EXPECT_FALSE(reference.accepted);
   EXPECT_GT(reference.disagreement, 1e-9);
