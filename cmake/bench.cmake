@@ -30,8 +30,19 @@ if(benchmark_FOUND)
     COMPILE_OPTIONS "-O3;-march=native;-fno-math-errno;-fno-trapping-math"
   )
   target_link_libraries(step_cost cloth_core benchmark::benchmark)
+
+  add_executable(limit_cost EXCLUDE_FROM_ALL
+    bench/level_sheet.cpp
+    bench/limit_cost.cpp
+  )
+  target_link_libraries(limit_cost cloth_core benchmark::benchmark)
+
+  if(CLOTH_SIM_WITH_ROS)
+    add_executable(tick_cost EXCLUDE_FROM_ALL bench/tick_cost.cpp)
+    target_link_libraries(tick_cost cloth_ros benchmark::benchmark)
+  endif()
 else()
-  message(STATUS "Google Benchmark (libbenchmark-dev) is missing: linear_solver and step_cost are left out")
+  message(STATUS "Google Benchmark (libbenchmark-dev) is missing: what needs it in bench/ is left out")
 endif()
 
 find_package(Bullet QUIET)

@@ -45,12 +45,14 @@ cloth_add_test(methods
   test/methods/allocations_test.cpp
   test/methods/energy_drift_test.cpp
   test/methods/exact_motion_test.cpp
+  test/methods/multigrid_test.cpp
   test/methods/order_test.cpp
   test/methods/spectrum_test.cpp
   test/methods/stability_test.cpp
   test/methods/threads_test.cpp
 )
 target_link_libraries(test_methods ${agreement_libraries})
+target_include_directories(test_methods PRIVATE src/methods)
 cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp

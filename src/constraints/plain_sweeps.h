@@ -20,6 +20,10 @@ public:
   StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, Vectors& positions,
                               Vectors* shifts) override;
 
+  void go_on_from(const Shortening&) override
+  {
+  }
+
 private:
   std::vector<SpringBatch> batches_;
 };

@@ -22,6 +22,9 @@ public:
   /// no meaning.
   virtual StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
                                       Vectors& positions, Vectors* shifts) = 0;
+
+  /// Takes over what `before`, of the same sheet, knows from its last call, where that is of use.
+  virtual void go_on_from(const Shortening& before) = 0;
 };
 
 }  // namespace cloth

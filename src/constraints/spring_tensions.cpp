@@ -177,6 +177,28 @@ void SpringTensions::for_each_block(bool backwards, Visit&& visit)
   }
 }
 
+void SpringTensions::go_on_from(const Shortening& before)
+{
+  const auto* const other = dynamic_cast<const SpringTensions*>(&before);
+  if (other == nullptr)
+  {
+    return;
+  }
+  reached_ = other->reached_;
+  margin_ = other->margin_;
+  for (Batch& batch : batches_)
+  {
+    const auto same = std::find_if(other->batches_.begin(), other->batches_.end(), [&](const Batch& candidate) {
+      return candidate.springs.first == batch.springs.first && candidate.springs.offset == batch.springs.offset;
+    });
+    if (same != other->batches_.end())
+    {
+      std::copy(std::begin(same->tensions), std::end(same->tensions), std::begin(batch.tensions));
+      batch.is_taut = same->is_taut;
+    }
+  }
+}
+
 StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
                                             Vectors& positions, Vectors* shifts)
 {

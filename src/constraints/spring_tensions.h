@@ -41,6 +41,7 @@ public:
 
   StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, Vectors& positions,
                               Vectors* shifts) override;
+  void go_on_from(const Shortening& before) override;
 
 private:
   /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do

@@ -49,6 +49,14 @@ StrainLimit::StrainLimit(StrainLimit&&) noexcept = default;
 StrainLimit& StrainLimit::operator=(StrainLimit&&) noexcept = default;
 StrainLimit::~StrainLimit() = default;
 
+void StrainLimit::go_on_from(const StrainLimit& before)
+{
+  if (active() && before.active())
+  {
+    shortening_->go_on_from(*before.shortening_);
+  }
+}
+
 /// Looks again only after pins have moved.
 void StrainLimit::find_reach(const ClothModel& model, const Pins& pins, const Vectors& positions)
 {

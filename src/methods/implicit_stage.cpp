@@ -15,15 +15,16 @@ double largest_per_mass(const Vectors& u, const Eigen::VectorXd& masses)
   return std::sqrt((u.rowwise().squaredNorm().array() / masses.array().square()).maxCoeff());
 }
 
-/// The largest sum of the stiffnesses at a node over its mass, 1/s2.
-double largest_stiffness_per_mass(const ClothModel& model)
+/// The largest sum of stiffness_factor k + damping_factor c at a node over its mass.
+double largest_springs_per_mass(const ClothModel& model, double stiffness_factor, double damping_factor)
 {
   Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(model.nodes());
   for (const SpringBatch& batch : model.springs)
   {
+    const double weight = stiffness_factor * batch.stiffness + damping_factor * batch.damping;
     for_each_spring(batch, [&](int i, int j) {
-      sums[i] += batch.stiffness;
-      sums[j] += batch.stiffness;
+      sums[i] += weight;
+      sums[j] += weight;
     });
   }
   return (sums / model.masses.array()).maxCoeff();
@@ -36,6 +37,8 @@ void ImplicitStage::solve(const Dynamics& dynamics, double time, double s, const
 {
   const Equation equation{ dynamics, time, s, base_positions, base_velocities };
   const Eigen::VectorXd& masses = dynamics.model().masses;
+  uses_multigrid_ =
+      !dynamics.model().is_chain() && largest_springs_per_mass(dynamics.model(), s * s, s) > multigrid_from;
   dynamics.external_forces_on_all(time, velocities);
   dynamics.accelerations_of(velocities, velocities);
   velocities = base_velocities + s * velocities;
@@ -85,7 +88,7 @@ double ImplicitStage::rounding_of(const Equation& equation, const Vectors& posit
   const double farthest = std::sqrt(positions.rowwise().squaredNorm().maxCoeff());
   const double fastest = std::sqrt(velocities.rowwise().squaredNorm().maxCoeff());
   return 4.0 * std::numeric_limits<double>::epsilon() *
-         (fastest + equation.s * largest_stiffness_per_mass(equation.dynamics.model()) * farthest);
+         (fastest + equation.s * largest_springs_per_mass(equation.dynamics.model(), 1.0, 0.0) * farthest);
 }
 
 void ImplicitStage::linearise(const Equation& equation, const Vectors& positions, const Eigen::ArrayXd& capacities)
@@ -95,6 +98,12 @@ void ImplicitStage::linearise(const Equation& equation, const Vectors& positions
   if (equation.dynamics.air().is_coupled(model))
   {
     node_normals(model, positions, normals_);
+  }
+  if (uses_multigrid_)
+  {
+    const AirProperties& air = equation.dynamics.air().properties();
+    multigrid_.prepare(model, equation.dynamics.pins(),
+                       model.masses.array() + equation.s * air.viscous_damping * model.areas.array(), springs_);
   }
 }
 
@@ -113,9 +122,16 @@ void ImplicitStage::multiply(const Equation& equation, const Vectors& u, Vectors
 bool ImplicitStage::find_direction(const Equation& equation, StepReport& report)
 {
   constexpr double part = 1e-3;
+  const Eigen::VectorXd& masses = equation.dynamics.model().masses;
+  const auto multiplied = [&](const Vectors& u, Vectors& product) { multiply(equation, u, product); };
+  const auto by_multigrid = [&](const Vectors& r, Vectors& z) { multigrid_.apply(r, z); };
+  const bool is_solved =
+      uses_multigrid_ ?
+          linear_solver_.solve(multiplied, by_multigrid, masses, residual_, part, direction_) :
+          linear_solver_.solve(multiplied, MassPreconditioner(masses), masses, residual_, part, direction_);
   ++report.linear_solves;
-  const auto product_of = [&](const Vectors& u, Vectors& product) { multiply(equation, u, product); };
-  return linear_solver_.solve(product_of, equation.dynamics.model().masses, residual_, part, direction_);
+  report.linear_iterations += linear_solver_.iterations();
+  return is_solved;
 }
 
 /// Goes along the direction until the residual's component along it has fallen enough; it is a descent direction of the

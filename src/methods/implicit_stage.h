@@ -3,6 +3,7 @@
 #include "cloth_sim/forces/spring_jacobian.h"
 #include "cloth_sim/methods/method.h"
 #include "conjugate_gradients.h"
+#include "multigrid.h"
 
 namespace cloth
 {
@@ -15,11 +16,11 @@ namespace cloth
 ///
 ///   (M + s C + s^2 K) dv = -r,   K = -df/dx, C = -df/dv  (SpringJacobian, Air)
 ///
-/// solved by conjugate gradients preconditioned with M. They keep the momentum, the sum of M v, exactly as the first
-/// guess has it, which falls freely. Where they find that compressed springs have made the matrix indefinite, the
-/// destabilising part of K is cut down to what the masses can carry, and they begin again. A step that overshoots is
-/// shortened by the line search of Matthies and Strang, "The solution of nonlinear finite element equations", 1979,
-/// which needs no energy, so that damping and wind may take part.
+/// solved by conjugate gradients, preconditioned with M or, where springs outweigh it by far, by multigrid. Both keep
+/// the momentum, the sum of M v, exactly as the first guess has it, which falls freely. Where they find that compressed
+/// springs have made the matrix indefinite, the destabilising part of K is cut down to what the masses can carry, and
+/// they begin again. A step that overshoots is shortened by the line search of Matthies and Strang, "The solution of
+/// nonlinear finite element equations", 1979, which needs no energy, so that damping and wind may take part.
 class ImplicitStage
 {
 public:
@@ -39,6 +40,9 @@ public:
 
 private:
   static constexpr int most_iterations = 100;
+  /// Of (s^2 k + s c) / m, summed over a node's springs: from there on multigrid takes less time than the 20
+  /// iterations and more that it spares.
+  static constexpr double multigrid_from = 50.0;
 
   struct Equation
   {
@@ -64,6 +68,8 @@ private:
   Vectors residual_;
   Vectors direction_;
   Vectors start_;
+  bool uses_multigrid_ = false;
+  Multigrid multigrid_;
   ConjugateGradients linear_solver_;
 };
 

@@ -504,7 +504,7 @@ void ClothNode::publish_stats_when_due()
   stats_message_.header.frame_id = cloth_->plan.scene.frame_id;
   stats_message_.overruns = clock_.overruns();
   stats_message_.paused = clock_.paused() ? 1 : 0;
-  stats_message_.plan = joined(describe(cloth_->plan, simulation), "\n");
+  stats_message_.plan = joined(describe(cloth_->plan, simulation, stats_message_.stability_limit), "\n");
   stats_message_.plan += tuning_report_.empty() ? "" : "\n" + tuning_report_;
   stats_.publish(boost::make_shared<cloth_sim::ClothStats>(stats_message_));
   if (clock_.paused())

@@ -1,6 +1,7 @@
 #include "mesh_marker.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "conversions.h"
 #include "shading.h"
@@ -25,6 +26,7 @@ MeshMarker::MeshMarker(const ClothModel& model, const std::string& frame_id, con
   }
   triangles_ = ribbon_ ? ribbon_->triangles() : triangles_of(model);
   colours_.resize(static_cast<size_t>(model.nodes()) * (ribbon_ ? 2 : 1));
+  points_.resize(colours_.size());
   strains_.resize(static_cast<size_t>(model.nodes()));
 
   visualization_msgs::Marker marker;
@@ -42,11 +44,10 @@ MeshMarker::MeshMarker(const ClothModel& model, const std::string& frame_id, con
 
 visualization_msgs::Marker::ConstPtr MeshMarker::update(const Vectors& positions, const ros::Time& stamp)
 {
-  const Vectors& vertices = lay_surface(positions);
-  colour_vertices(positions);
+  make_vertices(positions, lay_surface(positions));
   const visualization_msgs::Marker::Ptr marker = markers_.take();
   marker->header.stamp = stamp;
-  fill_marker(vertices, *marker);
+  fill_marker(*marker);
   return marker;
 }
 
@@ -63,25 +64,30 @@ const Vectors& MeshMarker::lay_surface(const Vectors& positions)
 
 void MeshMarker::find_strains(const Vectors& positions)
 {
-  std::fill(strains_.begin(), strains_.end(), 0.0);
+  std::fill(strains_.begin(), strains_.end(), 1.0);
   for (const SpringBatch& batch : model_.springs)
   {
     if (batch.kind == SpringKind::flex)
     {
       continue;
     }
+    const double scale = 1.0 / (batch.rest_length * batch.rest_length);
     for_each_spring(batch, [&](int i, int j) {
-      const double strain = (positions.row(j) - positions.row(i)).norm() / batch.rest_length - 1.0;
+      const double squared_stretch = scale * (positions.row(j) - positions.row(i)).squaredNorm();
       for (const int node : { i, j })
       {
         double& worst = strains_[static_cast<size_t>(node)];
-        worst = std::max(worst, strain);
+        worst = std::max(worst, squared_stretch);
       }
     });
   }
+  for (double& strain : strains_)
+  {
+    strain = std::sqrt(strain) - 1.0;
+  }
 }
 
-void MeshMarker::colour_vertices(const Vectors& positions)
+void MeshMarker::make_vertices(const Vectors& positions, const Vectors& vertices)
 {
   const int vertices_a_node = ribbon_ ? 2 : 1;
   double full_strain = colouring_.full_strain;
@@ -95,6 +101,7 @@ void MeshMarker::colour_vertices(const Vectors& positions)
   }
   for (size_t v = 0; v < colours_.size(); ++v)
   {
+    points_[v] = to_point(vertices, static_cast<int>(v));
     const Eigen::Vector3d normal = normals_.row(static_cast<Eigen::Index>(v));
     const size_t node = v / static_cast<size_t>(vertices_a_node);
     colours_[v] = to_colour(colouring_.by_strain ? softly_lit(strain_colour(strains_[node], full_strain), normal) :
@@ -102,14 +109,14 @@ void MeshMarker::colour_vertices(const Vectors& positions)
   }
 }
 
-void MeshMarker::fill_marker(const Vectors& vertices, visualization_msgs::Marker& marker) const
+void MeshMarker::fill_marker(visualization_msgs::Marker& marker) const
 {
   size_t corner = 0;
   for (const auto& triangle : triangles_)
   {
     for (const int vertex : triangle)
     {
-      marker.points[corner] = to_point(vertices, vertex);
+      marker.points[corner] = points_[static_cast<size_t>(vertex)];
       marker.colors[corner] = colours_[static_cast<size_t>(vertex)];
       ++corner;
     }

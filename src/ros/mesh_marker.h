@@ -43,8 +43,8 @@ public:
 private:
   const Vectors& lay_surface(const Vectors& positions);
   void find_strains(const Vectors& positions);
-  void colour_vertices(const Vectors& positions);
-  void fill_marker(const Vectors& vertices, visualization_msgs::Marker& marker) const;
+  void make_vertices(const Vectors& positions, const Vectors& vertices);
+  void fill_marker(visualization_msgs::Marker& marker) const;
 
   const ClothModel& model_;
   MeshColouring colouring_;
@@ -52,8 +52,9 @@ private:
   std::vector<std::array<int, 3>> triangles_;  ///< of vertices
   Vectors ribbon_vertices_;
   Vectors normals_;                           ///< one row a vertex
-  std::vector<std_msgs::ColorRGBA> colours_;  ///< one a vertex
-  std::vector<double> strains_;               ///< the worst of each node's structural and shear springs
+  std::vector<geometry_msgs::Point> points_;  ///< one a vertex
+  std::vector<std_msgs::ColorRGBA> colours_;
+  std::vector<double> strains_;  ///< the worst of each node's structural and shear springs
   ReusedMessages<visualization_msgs::Marker> markers_;
 };
 

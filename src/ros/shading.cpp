@@ -26,7 +26,8 @@ const Eigen::Vector3d from_all_around(0.22, 0.22, 0.25);
 double brightness(const Eigen::Vector3d& normal, const Light& light)
 {
   constexpr double roundness = 0.12;
-  return std::hypot(normal.dot(light.towards), roundness);
+  const double cosine = normal.dot(light.towards);
+  return std::sqrt(cosine * cosine + roundness * roundness);
 }
 
 Eigen::Vector3d illumination(const Eigen::Vector3d& normal)

@@ -263,10 +263,9 @@ Simulation carry_on(const Plan& plan, const Simulation& running)
 namespace
 {
 
-std::string described_step(double given, const Simulation& simulation)
+std::string described_step(double given, const Simulation& simulation, double stability_limit)
 {
   const std::string name = simulation.method().name;
-  const double stability_limit = simulation.stability_limit();
   const std::string limit = format_number(stability_limit) + " s";
   if (simulation.method().is_adaptive)
   {
@@ -303,13 +302,18 @@ std::string described_threads(const Simulation& simulation)
 
 std::vector<std::string> describe(const Plan& plan, const Simulation& simulation)
 {
+  return describe(plan, simulation, simulation.stability_limit());
+}
+
+std::vector<std::string> describe(const Plan& plan, const Simulation& simulation, double stability_limit)
+{
   std::vector<std::string> lines;
   for (const PlanLine& line : plan.lines)
   {
     lines.push_back(line.part + ": " + (line.kept ? "kept, " : "left out, ") + line.reason);
   }
   lines.push_back("threads: " + described_threads(simulation));
-  lines.push_back("time step: " + described_step(plan.scene.solver.time_step, simulation));
+  lines.push_back("time step: " + described_step(plan.scene.solver.time_step, simulation, stability_limit));
   return lines;
 }
 

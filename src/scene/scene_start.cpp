@@ -116,7 +116,7 @@ bool relax(const SceneParams& scene, const ClothModel& model, const FlatSheet& f
   if (limit > 0.0)
   {
     ClothState state{ positions, Vectors::Zero(model.nodes(), 3), 0.0 };
-    StrainLimit(model, { limit, start_sweeps }).apply(model, flat.pins, 1.0, state);
+    StrainLimit(model, { limit, start_sweeps, LimitSolver::plain_sweeps }).apply(model, flat.pins, 1.0, state);
     positions = state.positions;
   }
   return true;

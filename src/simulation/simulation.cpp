@@ -63,6 +63,7 @@ Simulation Simulation::gone_over_to(SimulationSetup setup) const
   setup.start = state_;
   Simulation next(std::move(setup));
   next.keeps_within_limit_ = true;
+  next.strain_limit_.go_on_from(strain_limit_);
   next.last_step_ = last_step_;
   next.divergence_ = divergence_;
   next.counters_ = counters_;
@@ -83,7 +84,7 @@ void Simulation::shorten_at_no_speed()
 {
   constexpr int most_sweeps = 1000;
   constexpr double in_no_hurry = std::numeric_limits<double>::infinity();
-  StrainLimit limit(model(), { strain_limit_.properties().max_strain, most_sweeps });
+  StrainLimit limit(model(), { strain_limit_.properties().max_strain, most_sweeps, LimitSolver::plain_sweeps });
   limit.apply(model(), pins(), in_no_hurry, state_);
   changed_from_outside();
 }
@@ -106,6 +107,7 @@ void Simulation::step(double h)
   }
   counters_.force_evaluations += static_cast<std::uint64_t>(report.force_evaluations);
   counters_.linear_solves += static_cast<std::uint64_t>(report.linear_solves);
+  counters_.linear_iterations += static_cast<std::uint64_t>(report.linear_iterations);
   counters_.rejected_steps += static_cast<std::uint64_t>(report.rejected_steps);
   counters_.unconverged_steps += report.converged ? 0 : 1;
   ++counters_.steps;

@@ -72,6 +72,7 @@ void write_summary(std::ostream& stream, const Simulation& simulation, double wa
   emit(emitter, "steps", counters.steps);
   emit(emitter, "force_evaluations", counters.force_evaluations);
   emit(emitter, "linear_solves", counters.linear_solves);
+  emit(emitter, "linear_iterations", counters.linear_iterations);
   emit(emitter, "rejected_steps", counters.rejected_steps);
   emit(emitter, "unconverged_steps", counters.unconverged_steps);
   emit(emitter, "limit_sweeps", counters.limit_sweeps);

@@ -358,6 +358,20 @@ TEST(Simulation, GoesOverToOtherPropertiesWithoutAJerk)
       << "the hand gets where it was sent";
 }
 
+TEST(Simulation, GoneOverToWhatItIsItMovesAsIfNothingHadHappened)
+{
+  SceneParams scene = small_hanging_sheet();
+  scene.strain_limit.max_strain = 0.02;
+  scene.solver.time_step = 5e-4;
+  Simulation simulation = simulation_of(scene);
+  simulation.advance_to(0.3);
+  Simulation same = carry_on(make_plan(scene), simulation);
+  simulation.advance_to(0.4);
+  same.advance_to(0.4);
+  EXPECT_GT(simulation.counters().limit_sweeps, simulation.counters().steps / 10);
+  EXPECT_LT((same.state().positions - simulation.state().positions).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 TEST(Simulation, ALowerStrainLimitGivesNoSpeed)
 {
   SceneParams scene = small_hanging_sheet();

@@ -129,7 +129,7 @@ TEST_F(ClothRunSummary, HasEveryKeyOfTheInterface)
   {
     EXPECT_TRUE(std::isfinite(summary[key].as<double>())) << key;
   }
-  for (const char* const key : { "steps", "force_evaluations", "linear_solves" })
+  for (const char* const key : { "steps", "force_evaluations", "linear_solves", "linear_iterations" })
   {
     EXPECT_GE(summary[key].as<int>(), 0) << key;
   }

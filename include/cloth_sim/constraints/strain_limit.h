@@ -59,6 +59,9 @@ public:
     return properties_;
   }
 
+  /// Takes over what `before`, another limit of the same sheet, has found out about it, so that fewer passes do.
+  void go_on_from(const StrainLimit& before);
+
   /// What the pins demanded of the sheet when `apply` was called last. Where that is more than max_strain, the limit is
   /// raised to 1.05 of it, so that there is a shape that obeys it.
   const PinReach& reach() const

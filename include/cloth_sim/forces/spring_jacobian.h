@@ -24,17 +24,6 @@ namespace cloth
 class SpringJacobian
 {
 public:
-  /// Linearises the springs at `positions` (m) for the factors p and q. `capacities` (kg, one a node) say how much
-  /// negative stiffness p k (1 - l0/|l|) a node can carry: where the sum over its springs is above half of it, that of
-  /// each is cut down in proportion. By Gershgorin's theorem for blocks, diag(capacities) + P is then positive
-  /// semidefinite.
-  void linearise(const ClothModel& model, const Vectors& positions, double stiffness_factor, double damping_factor,
-                 const Eigen::ArrayXd& capacities);
-
-  /// Adds P u. One row a node.
-  void add_product(const Vectors& u, Vectors& product) const;
-
-private:
   /// Of each spring of a batch the matrix `across` I + w w^T, in memory order.
   struct LinearisedBatch
   {
@@ -45,6 +34,23 @@ private:
     std::vector<double> w_z;
   };
 
+  /// Linearises the springs at `positions` (m) for the factors p and q. `capacities` (kg, one a node) say how much
+  /// negative stiffness p k (1 - l0/|l|) a node can carry: where the sum over its springs is above half of it, that of
+  /// each is cut down in proportion. By Gershgorin's theorem for blocks, diag(capacities) + P is then positive
+  /// semidefinite.
+  void linearise(const ClothModel& model, const Vectors& positions, double stiffness_factor, double damping_factor,
+                 const Eigen::ArrayXd& capacities);
+
+  /// Adds P u. One row a node.
+  void add_product(const Vectors& u, Vectors& product) const;
+
+  /// As they were linearised last.
+  const std::vector<LinearisedBatch>& batches() const
+  {
+    return batches_;
+  }
+
+private:
   void take_directions(const Vectors& positions, double stiffness_factor, LinearisedBatch& linearised);
   void cut_negative_stiffness(const Eigen::ArrayXd& kept_parts, LinearisedBatch& linearised) const;
   static void scale_directions(double along, LinearisedBatch& linearised);

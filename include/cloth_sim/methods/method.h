@@ -23,8 +23,9 @@ struct StepReport
 {
   int force_evaluations = 0;  ///< or passes over all springs of like cost
   int linear_solves = 0;
-  int rejected_steps = 0;  ///< tried and thrown away because the error estimate was too large
-  bool converged = true;   ///< false: the step's equations were left with a residual above the method's bound
+  int linear_iterations = 0;  ///< of conjugate gradients, in all solves
+  int rejected_steps = 0;     ///< tried and thrown away because the error estimate was too large
+  bool converged = true;      ///< false: the step's equations were left with a residual above the method's bound
 };
 
 /// A time-stepping method at work on one cloth.

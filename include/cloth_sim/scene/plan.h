@@ -49,6 +49,8 @@ Simulation carry_on(const Plan& plan, const Simulation& running);
 /// The plan's lines and one for the step as `simulation` takes it now, each as text: "flex springs: left out,
 /// stiffness is 0".
 std::vector<std::string> describe(const Plan& plan, const Simulation& simulation);
+/// The same where `Simulation::stability_limit` is known already: to find it takes as long as some 20 steps.
+std::vector<std::string> describe(const Plan& plan, const Simulation& simulation, double stability_limit);
 
 /// One sentence with both numbers where the given step is beyond the stability limit; empty otherwise.
 std::string time_step_warning(const Simulation& simulation);

@@ -62,6 +62,7 @@ public:
     std::uint64_t steps = 0;
     std::uint64_t force_evaluations = 0;
     std::uint64_t linear_solves = 0;
+    std::uint64_t linear_iterations = 0;  ///< of conjugate gradients, in all solves
     std::uint64_t rejected_steps = 0;     ///< tried by an adaptive method and thrown away
     std::uint64_t unconverged_steps = 0;  ///< whose equations the method did not solve to its bound
     std::uint64_t limit_sweeps = 0;       ///< passes of the strain limit over the springs
