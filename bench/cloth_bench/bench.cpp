@@ -80,7 +80,7 @@ BenchSettings BenchSettings::quick()
   settings.reference.most_disagreement = 1e-8;
   settings.reference.most_seconds = 4.0;
   settings.limited_disagreement = 2e-4;
-  settings.limited_seconds = 1.0;
+  settings.limited_seconds = 2.5;
   settings.spatial_seconds = 4.0;
   return settings;
 }
