@@ -1,7 +1,7 @@
 # What is installed and tested where there is no ROS.
 
 include(GNUInstallDirs)
-install(TARGETS cloth_core cloth_run parameter_page
+install(TARGETS cloth_bench cloth_core cloth_run parameter_page
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
@@ -10,6 +10,14 @@ install(TARGETS cloth_core cloth_run parameter_page
 #catkin_lint: ignore_once wrong_install_destination
 install(DIRECTORY include/${PROJECT_NAME}/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${PROJECT_NAME}
+)
+# What cloth_bench needs beside itself: its scenes, and what draws charts.
+install(DIRECTORY bench/
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/bench
+  USE_SOURCE_PERMISSIONS
+  FILES_MATCHING PATTERN "*.py" PATTERN "scenes/*.yaml" PATTERN stability_map.csv
+  PATTERN cloth_bench EXCLUDE
+  PATTERN __pycache__ EXCLUDE
 )
 
 include(CTest)

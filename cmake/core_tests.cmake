@@ -86,6 +86,17 @@ cloth_add_test(tools
 # cloth_run is tested as a program.
 target_compile_definitions(test_tools PRIVATE CLOTH_RUN="$<TARGET_FILE:cloth_run>")
 add_dependencies(test_tools cloth_run)
+cloth_add_test(bench
+  test/bench/bench_test.cpp
+  test/bench/cloth_bench_test.cpp
+  test/bench/errors_test.cpp
+  test/bench/problem_test.cpp
+  test/bench/reference_test.cpp
+  test/bench/slopes_test.cpp
+)
+target_link_libraries(test_bench cloth_bench_parts)
+target_compile_definitions(test_bench PRIVATE CLOTH_BENCH="$<TARGET_FILE:cloth_bench>")
+add_dependencies(test_bench cloth_bench)
 
 # What makes charts of measurements is tested in Python; without matplotlib the charts themselves are skipped.
 if(CLOTH_SIM_WITH_ROS)

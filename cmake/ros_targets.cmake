@@ -61,7 +61,7 @@ install(TARGETS cloth_core cloth_nodelet
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}
 )
-install(TARGETS cloth_node cloth_replay cloth_run parameter_page
+install(TARGETS cloth_bench cloth_node cloth_replay cloth_run parameter_page
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
 )
 install(DIRECTORY include/${PROJECT_NAME}/
@@ -72,4 +72,12 @@ install(FILES nodelet_plugins.xml
 )
 install(DIRECTORY config launch
   DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
+)
+# What cloth_bench needs beside itself: its scenes, and what draws charts.
+install(DIRECTORY bench/
+  DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/bench
+  USE_SOURCE_PERMISSIONS
+  FILES_MATCHING PATTERN "*.py" PATTERN "scenes/*.yaml" PATTERN stability_map.csv
+  PATTERN cloth_bench EXCLUDE
+  PATTERN __pycache__ EXCLUDE
 )
