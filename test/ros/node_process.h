@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,17 @@ class NodeProcess
 public:
   explicit NodeProcess(const std::vector<std::string>& arguments) : process_(command(arguments))
   {
+  }
+
+  /// Ends it in good order, so that it takes its leave of the master: should the next node be given its port, the
+  /// listeners of this one would take that for the one that they know, and never listen to it.
+  ~NodeProcess()
+  {
+    if (!process_.exit_status())
+    {
+      signal(SIGINT);
+      wait_for_end();
+    }
   }
 
   bool wait_for_end()

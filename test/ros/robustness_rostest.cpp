@@ -201,7 +201,7 @@ protected:
 TEST_F(Robustness, AThousandRandomRequestsLeaveAFiniteClothAndLoseNoTickUncounted)
 {
   NodeProcess node(sheet());
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   Requests requests;
   int balanced = 0;
   for (int round = 0; round < 5; ++round)
@@ -231,7 +231,7 @@ TEST_F(Robustness, AThousandRandomRequestsLeaveAFiniteClothAndLoseNoTickUncounte
 TEST_F(Robustness, AFloodOfWindAndPinsLosesNoTickUncounted)
 {
   NodeProcess node(sheet());
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   ledger_.open();
   Requests requests;
   ros::WallRate kilohertz(1000.0);
@@ -256,7 +256,7 @@ TEST_F(Robustness, AFloodOfWindAndPinsLosesNoTickUncounted)
 TEST_F(Robustness, EmptyHugeAndNotFiniteFieldsChangeNothing)
 {
   NodeProcess node(sheet());
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   ASSERT_TRUE(ledger_.states().wait_for_more(1));
   const auto flags = ledger_.states().last().flags;
   ledger_.open();
@@ -304,7 +304,7 @@ TEST_F(Robustness, EmptyHugeAndNotFiniteFieldsChangeNothing)
 TEST_F(Robustness, EveryRealTimeFactorTakesTheClothOnByItsShare)
 {
   NodeProcess node(sheet());
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   for (const double factor : { 0.1, 1.0, 10.0, 0.0 })
   {
     SCOPED_TRACE(factor);
@@ -333,7 +333,7 @@ TEST_F(Robustness, EveryRealTimeFactorTakesTheClothOnByItsShare)
 TEST_F(Robustness, OverloadIsCountedAndTheClothGoesOnTickByTick)
 {
   NodeProcess node({ "_rate:=50", "_cloth/rows:=16", "_cloth/cols:=16" });
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   ledger_.open();
   // Twenty thousand steps a tick.
   ASSERT_TRUE(Change().set("solver_time_step", 1e-6).ask());
@@ -350,7 +350,7 @@ TEST_F(Robustness, OverloadIsCountedAndTheClothGoesOnTickByTick)
 TEST_F(Robustness, AfterAResetOverrunsAreCountedAnewAndNoTickIsLostUncounted)
 {
   NodeProcess node({ "_rate:=50", "_cloth/rows:=16", "_cloth/cols:=16" });
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   // Overruns amid the simulated times that come again after the reset.
   ASSERT_TRUE(ledger_.states().wait_for_one([](const ClothState& state) { return state.sim_time > 2.0; }));
   ASSERT_TRUE(Change().set("solver_time_step", 1e-6).ask());
@@ -367,7 +367,7 @@ TEST_F(Robustness, ATickThatDoesNotEndIsShownAndTakenBack)
 {
   Listener<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   NodeProcess node(sheet());
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   ledger_.open();
   // Twenty million steps a tick.
   ASSERT_TRUE(Change().set("solver_time_step", 1e-9).ask());
@@ -393,7 +393,7 @@ TEST_F(Robustness, ATickThatDoesNotEndIsShownAndTakenBack)
 TEST_F(Robustness, AListenerThatNeverReadsHoldsNothingUp)
 {
   NodeProcess node({ "_rate:=50", "_cloth/rows:=24", "_cloth/cols:=24" });
-  ASSERT_TRUE(wait_for_node());
+  ASSERT_TRUE(wait_for_node()) << node.output();
   const StalledListener mesh("/cloth_node", "/cloth_node/mesh");
   const StalledListener state("/cloth_node", "/cloth_node/state");
   ledger_.open();
