@@ -246,12 +246,15 @@ std::vector<Measurement> Bench::climb(const Solver& solver, const Problem& probl
     {
       complete.push_back(here);
     }
-    if (here.status == name_of(Status::too_slow) || (here.is_complete() && here.errors.rms < smallest_error))
+    // Where stability ends the strain limit may need more passes than all the steps that are saved.
+    const bool finer_are_slower = problem.kind != Kind::limited || !complete.empty();
+    const bool is_last = here.status == name_of(Status::too_slow) && finer_are_slower;
+    if (is_last || (here.is_complete() && here.errors.rms < smallest_error))
     {
       break;
     }
     const double growth = is_after_another ? std::max(1.0, here.seconds / before) : 1.0;
-    expected = here.seconds * std::min(growth, settings_.ratio);
+    expected = here.is_complete() ? here.seconds * std::min(growth, settings_.ratio) : 0.0;
     is_after_another = here.is_complete();
     before = here.seconds;
   }
