@@ -45,7 +45,6 @@ else()
   message(STATUS "Google Benchmark (libbenchmark-dev) is missing: what needs it in bench/ is left out")
 endif()
 
-find_package(Bullet QUIET)
 if(BULLET_FOUND)
   add_executable(against_bullet EXCLUDE_FROM_ALL
     bench/against_bullet.cpp

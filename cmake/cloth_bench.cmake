@@ -1,7 +1,9 @@
 # cloth_bench, which charts speed against accuracy. Solvers of others are compared with where they are there.
 
 # The older interface of SUNDIALS 5 and before does not do.
-find_package(SUNDIALS 6 QUIET COMPONENTS cvode nvecserial sunlinsolspgmr sunnonlinsolfixedpoint)
+find_package(SUNDIALS 6 QUIET COMPONENTS
+  cvode nvecserial sunlinsoldense sunlinsolspgmr sunmatrixdense sunnonlinsolfixedpoint
+)
 find_package(Boost QUIET)
 find_package(Bullet QUIET)
 
@@ -34,8 +36,9 @@ add_library(cloth_bench_parts STATIC
   bench/cloth_bench/solver.cpp
   bench/cloth_bench/spatial.cpp
   bench/cloth_bench/tables.cpp
-  ${commit_source}
 )
+target_sources(cloth_bench_parts PRIVATE ${commit_source})
+set_source_files_properties(${commit_source} PROPERTIES GENERATED TRUE)
 add_dependencies(cloth_bench_parts cloth_bench_commit)
 target_include_directories(cloth_bench_parts PUBLIC bench/cloth_bench)
 target_compile_definitions(cloth_bench_parts PRIVATE

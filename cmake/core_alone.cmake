@@ -12,6 +12,7 @@ install(DIRECTORY include/${PROJECT_NAME}/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${PROJECT_NAME}
 )
 # What cloth_bench needs beside itself: its scenes, and what draws charts.
+#catkin_lint: ignore_once wrong_install_destination
 install(DIRECTORY bench/
   DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME}/bench
   USE_SOURCE_PERMISSIONS

@@ -13,8 +13,6 @@ function(cloth_add_test room)
   target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/test)
 endfunction()
 
-# The older interface of SUNDIALS 5 and before does not do.
-find_package(SUNDIALS 6 QUIET COMPONENTS cvode nvecserial sunlinsoldense sunmatrixdense sunnonlinsolfixedpoint)
 if(SUNDIALS_FOUND)
   set(agreement_test test/methods/agreement_test.cpp)
   set(agreement_libraries SUNDIALS::cvode SUNDIALS::nvecserial SUNDIALS::sunlinsoldense SUNDIALS::sunmatrixdense
