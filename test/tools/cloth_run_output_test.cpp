@@ -160,7 +160,7 @@ TEST_F(ClothRunSummary, HasNumbersThatEveryYamlReaderTakesForNumbers)
     EXPECT_TRUE(is_number || contains(line, "status") || contains(line, "method") || contains(line, "momentum"))
         << line;
   }
-  EXPECT_EQ(numbers, 15);
+  EXPECT_EQ(numbers, 16);
 }
 
 TEST_F(ClothRunSummary, HasThePlanThatPlanPrints)
