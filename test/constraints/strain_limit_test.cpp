@@ -95,7 +95,9 @@ TEST_P(OneSpring, BetweenTwoPinsIsLeftAlone)
 {
   stretch_to(1.7);
   pins_.hold(still_pin("both", { 0, 1 }, state_.positions));
-  EXPECT_FALSE(apply().moved);
+  const StrainLimit::Report report = apply();
+  EXPECT_FALSE(report.moved);
+  EXPECT_LE(report.sweeps, 1);
   EXPECT_NEAR(strain(), 0.7, 1e-15);
 }
 
@@ -171,7 +173,7 @@ TEST_P(StretchedSheet, FewSweepsDoNotAndSaySo)
   const StrainLimit::Report report = apply(1);
   EXPECT_EQ(report.sweeps, 1);
   EXPECT_FALSE(report.reached);
-  EXPECT_GT(max_strain(model_, state_.positions), 0.1 * (1.0 + StrainLimit::tolerance));
+  EXPECT_GT(max_strain(model_, state_.positions), 0.101);
 }
 
 TEST_P(StretchedSheet, MomentumOfAFreeSheetStays)
