@@ -36,6 +36,7 @@ add_library(cloth_bench_parts STATIC
   bench/cloth_bench/solver.cpp
   bench/cloth_bench/spatial.cpp
   bench/cloth_bench/tables.cpp
+  bench/cloth_bench/yardstick.cpp
 )
 target_sources(cloth_bench_parts PRIVATE ${commit_source})
 set_source_files_properties(${commit_source} PROPERTIES GENERATED TRUE)

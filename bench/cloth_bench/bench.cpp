@@ -31,15 +31,18 @@ Outcome measured(const Solver& solver, const Problem& problem, double value, dou
 {
   Outcome outcome = solver.run(problem, value, most_seconds);
   double sum = outcome.seconds_per_second;
+  double yardsticks = outcome.seconds_per_second / outcome.yardstick;
   int runs = 1;
   const bool is_complete = outcome.status == Status::ok || outcome.status == Status::not_converged;
   for (double timed = outcome.seconds; is_complete && timed < least_timed; ++runs)
   {
     const Outcome again = solver.run(problem, value, most_seconds);
     sum += again.seconds_per_second;
+    yardsticks += again.seconds_per_second / again.yardstick;
     timed += std::max(again.seconds, 1e-6);
   }
   outcome.seconds_per_second = sum / runs;
+  outcome.yardstick = yardsticks > 0.0 ? sum / yardsticks : outcome.yardstick;
   return outcome;
 }
 
@@ -48,6 +51,7 @@ void take(const Outcome& outcome, Measurement& measurement)
   measurement.status = name_of(outcome.status);
   measurement.seconds = outcome.seconds;
   measurement.seconds_per_second = outcome.seconds_per_second;
+  measurement.yardstick = outcome.yardstick;
   measurement.force_evaluations = outcome.force_evaluations;
   measurement.linear_solves = outcome.linear_solves;
 }
@@ -74,8 +78,8 @@ BenchSettings BenchSettings::quick()
   settings.most_node_steps = 5e6;
   settings.smallest_error = 1e-6;
   settings.most_seconds = 0.2;
-  settings.most_repeats = 2;
-  settings.least_timed = 0.002;
+  settings.most_repeats = 4;
+  settings.least_timed = 0.005;
   settings.reference.first_tolerance = 1e-10;
   settings.reference.most_disagreement = 1e-8;
   settings.reference.most_seconds = 4.0;
@@ -232,8 +236,8 @@ std::vector<Measurement> Bench::climb(const Solver& solver, const Problem& probl
   like.fingerprint = row.fingerprint;
   like.solver = solver.name();
   like.setting = name_of(solver.setting());
-  const double smallest_error = std::max(problem.kind == Kind::limited ? 0.0 : settings_.smallest_error,
-                                         resolution * reference.disagreement);
+  const double smallest_error =
+      std::max(problem.kind == Kind::limited ? 0.0 : settings_.smallest_error, resolution * reference.disagreement);
   std::vector<Measurement> complete;
   double expected = 0.0;
   double before = 0.0;

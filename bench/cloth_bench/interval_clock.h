@@ -5,13 +5,14 @@
 #include <time.h>
 
 #include "solver.h"
+#include "yardstick.h"
 
 namespace cloth
 {
 
 /// Times a run interval by interval. The first one counts for nothing but the time left: what a solver makes once, it
 /// makes there, and it fills the caches. How long a run may take goes by the processor's time, so that other programs
-/// do not decide which runs there are.
+/// do not decide which runs there are. The yardstick is laid beside every interval.
 class IntervalClock
 {
 public:
@@ -25,7 +26,13 @@ public:
     const WallClock::time_point begin = WallClock::now();
     work();
     const double seconds = std::chrono::duration<double>(WallClock::now() - begin).count();
-    counted_ += intervals_++ == 0 ? 0.0 : seconds;
+    const double length = Yardstick::shared().length();
+    if (intervals_++ > 0)
+    {
+      counted_ += seconds;
+      yardsticks_ += seconds / (0.5 * (length_before_ + length));
+    }
+    length_before_ = length;
   }
 
   bool is_up() const
@@ -38,6 +45,7 @@ public:
     outcome.seconds = processor_seconds() - begin_;
     const int counted = intervals_ - 1;
     outcome.seconds_per_second = counted > 0 ? counted_ / (counted * problem_.sample_interval()) : 0.0;
+    outcome.yardstick = yardsticks_ > 0.0 ? counted_ / yardsticks_ : length_before_;
   }
 
 private:
@@ -53,7 +61,9 @@ private:
   const Problem& problem_;
   double most_seconds_;
   double begin_ = processor_seconds();
+  double length_before_ = Yardstick::shared().length();
   double counted_ = 0.0;
+  double yardsticks_ = 0.0;
   int intervals_ = 0;
 };
 

@@ -21,8 +21,7 @@ std::string exact(double number)
 
 const char* const measurement_header =
     "scene,kind,fingerprint,solver,setting,value,repeat,status,nodes,rms_error,worst_error,energy_error,strain_error,"
-    "seconds,"
-    "seconds_per_second,force_evaluations,solves";
+    "seconds,seconds_per_second,yardstick,force_evaluations,solves";
 
 bool is_same_row(const Measurement& one, const Measurement& other)
 {
@@ -36,7 +35,7 @@ std::string line_of(const Measurement& m)
   line << m.scene << ',' << m.kind << ',' << m.fingerprint << ',' << m.solver << ',' << m.setting << ',' << m.value
        << ',' << m.repeat << ',' << m.status << ',' << m.nodes;
   for (const double number : { m.errors.rms, m.errors.worst, m.errors.energy, m.errors.strain, m.seconds,
-                               m.seconds_per_second, m.force_evaluations, m.linear_solves })
+                               m.seconds_per_second, m.yardstick, m.force_evaluations, m.linear_solves })
   {
     line << ',' << exact(number);
   }
@@ -51,7 +50,7 @@ Measurement measurement_of(const std::string& line)
   {
     fields.push_back(field);
   }
-  if (fields.size() != 17)
+  if (fields.size() != 18)
   {
     throw std::runtime_error("no measurement: " + line);
   }
@@ -69,8 +68,9 @@ Measurement measurement_of(const std::string& line)
   m.errors = { number(9), number(10), number(11), number(12) };
   m.seconds = number(13);
   m.seconds_per_second = number(14);
-  m.force_evaluations = number(15);
-  m.linear_solves = number(16);
+  m.yardstick = number(15);
+  m.force_evaluations = number(16);
+  m.linear_solves = number(17);
   return m;
 }
 

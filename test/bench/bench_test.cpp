@@ -84,6 +84,26 @@ public:
   }
 };
 
+/// Every second run is on a machine half as fast, as the yardstick finds too.
+class StrayOnAMachineThatSlowsDown : public StraySolver
+{
+public:
+  explicit StrayOnAMachineThatSlowsDown(int& runs) : runs_(runs)
+  {
+  }
+  Outcome run(const Problem& problem, double value, double most_seconds) const override
+  {
+    Outcome outcome = StraySolver::run(problem, value, most_seconds);
+    const double slowness = runs_++ % 2 == 0 ? 1.0 : 2.0;
+    outcome.seconds_per_second = 3.0 * slowness;
+    outcome.yardstick = 1e-3 * slowness;
+    return outcome;
+  }
+
+private:
+  int& runs_;
+};
+
 class BenchInAFolder : public InAFolder
 {
 protected:
@@ -142,6 +162,23 @@ std::vector<Row> without_times(std::vector<Row> rows)
     }
   }
   return rows;
+}
+
+TEST_F(BenchInAFolder, CountsTheTimeOfAMachineThatNothingSlowsDown)
+{
+  Solvers solvers;
+  solvers.push_back(std::make_unique<StrayOnAMachineThatSlowsDown>(runs_));
+  EXPECT_TRUE(bench("out", std::move(solvers)));
+  const std::vector<Row> all = rows("out");
+  ASSERT_EQ(all.size(), 3U);
+  for (const Row& row : all)
+  {
+    EXPECT_EQ(row.at("repeats"), "2");
+    for (const char* const name : { "seconds_per_second", "seconds_per_second_low", "seconds_per_second_high" })
+    {
+      EXPECT_DOUBLE_EQ(std::stod(row.at(name)), 3.0) << name;
+    }
+  }
 }
 
 TEST_F(BenchInAFolder, MeasuresAnErrorThatWasPutIn)
