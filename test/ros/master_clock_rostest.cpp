@@ -44,13 +44,17 @@ protected:
     return is_there;
   }
 
-  void expect_clock_of_period(double period)
+  /// Each message is one period after the one before it. A node that goes as fast as it can may be ahead of a listener
+  /// by more messages than are kept for it; those that come are whole periods apart then.
+  void expect_clock_of_period(double period, bool all_come = true)
   {
     ASSERT_TRUE(wait_for_node());
     ASSERT_TRUE(clock_.wait_for(20));
     for (size_t i = 1; i < clock_.all().size(); ++i)
     {
-      EXPECT_NEAR((clock_.all()[i].clock - clock_.all()[i - 1].clock).toSec(), period, 2e-9);
+      const double difference = (clock_.all()[i].clock - clock_.all()[i - 1].clock).toSec();
+      const double periods = all_come ? 1.0 : std::max(1.0, std::round(difference / period));
+      EXPECT_NEAR(difference, periods * period, 2e-9 * periods);
     }
     ASSERT_TRUE(state_.wait_for_more(20));
     const ClothState& first = state_.all().front();
@@ -89,7 +93,7 @@ TEST_F(MasterClock, AlsoFasterThanTheWallClock)
 TEST_F(MasterClock, AlsoAsFastAsItCan)
 {
   NodeProcess node(master({ "_real_time_factor:=0" }));
-  expect_clock_of_period(1.0 / rate);
+  expect_clock_of_period(1.0 / rate, false);
 }
 
 TEST_F(MasterClock, APinFollowsItsFrame)
