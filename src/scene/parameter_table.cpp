@@ -212,6 +212,11 @@ std::vector<Parameter<SceneParams>> make_table()
         "the most threads that share a step, where the sheet is large enough to gain by it; 0: 2, or as many "
         "as this machine has if fewer; the result is the same to the last bit for any number",
         CLOTH_MEMBER(solver.threads)),
+    Scene::choice(
+        "plan", { "auto", "full" },
+        "auto: what does not change the answer by a quarter of solver.tolerance is left out, where solver.method "
+        "is auto too; full: all that the scene describes is modelled",
+        CLOTH_MEMBER(plan)),
 
     for_node(live(Scene::number("rate", "Hz", Range{ 1e-3, true, 1000.0 }, "ticks a second, one published mesh each",
                                 CLOTH_MEMBER(node.rate)))),

@@ -156,6 +156,10 @@ Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneSta
   Plan plan;
   plan.scene = scene;
   plan.method = find_method(scene.solver.method == "auto" ? automatic_method : scene.solver.method);
+  plan.choice.method = plan.method->name;
+  plan.choice.time_step = scene.solver.time_step;
+  plan.choice.tolerance = scene.solver.tolerance;
+  plan.choice.iterations = scene.solver.iterations;
   plan.start = start.state;
   plan.lines = {
     spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),

@@ -380,6 +380,7 @@ TEST(ParameterTableWords, AreThoseOfTheInterface)
       { "auto", "explicit_euler", "symplectic_euler", "velocity_verlet", "midpoint", "rk4", "dopri5", "implicit_euler",
         "implicit_midpoint", "tr_bdf2", "projective", "xpbd" } },
     { "clock_mode", { "follow", "master" } },
+    { "plan", { "auto", "full" } },
     { "start_paused", { "false", "true" } },
   };
   for (const Parameter<SceneParams>& parameter : parameter_table())

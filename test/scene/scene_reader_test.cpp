@@ -50,6 +50,7 @@ solver:
   iterations: 10
   compliance: 1
   threads: 0
+plan: auto
 rate: 30
 real_time_factor: 1.0
 clock_mode: follow
@@ -131,6 +132,7 @@ air: {viscous_damping: 4.1, wind_coupling: 4.2, wind: [10, 11, 12],
 pins:
   - {name: one, nodes: [[1, -2], [0, 0]], motion: {amplitude: [13, 14, 15], frequency: 5.1, phase: 5.2}}
 solver: {method: xpbd, time_step: 6.1, tolerance: 6.2, iterations: 7, compliance: 0.3, threads: 8}
+plan: full
 rate: 7.1
 real_time_factor: 7.2
 clock_mode: follow
@@ -177,6 +179,7 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.solver.iterations, 7);
   EXPECT_EQ(scene.solver.compliance, 0.3);
   EXPECT_EQ(scene.solver.threads, 8);
+  EXPECT_EQ(scene.plan, "full");
   EXPECT_EQ(scene.node.rate, 7.1);
   EXPECT_EQ(scene.node.real_time_factor, 7.2);
   EXPECT_EQ(scene.node.start_bag, "/tmp/a cloth.bag");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cloth_sim/methods/method.h"
+#include "cloth_sim/scene/choice.h"
 #include "cloth_sim/scene/scene_params.h"
 #include "cloth_sim/scene/scene_start.h"
 #include "cloth_sim/simulation/simulation.h"
@@ -24,6 +25,7 @@ struct Plan
 {
   SceneParams scene;  ///< without what is left out
   const MethodRow* method = nullptr;
+  Choice choice;
   ClothState start;  ///< the sheet at time 0
   std::vector<PlanLine> lines;
 };

@@ -77,6 +77,7 @@ struct SceneParams
   AirProperties air;
   std::vector<PinParams> pins{ { "left", "top_left", {}, {} }, { "right", "top_right", {}, {} } };
   SolverParams solver;
+  std::string plan = "auto";  ///< auto or full
   NodeParams node;
 };
 
