@@ -48,9 +48,13 @@ PlanLine spring_line(const SheetProperties& sheet, SpringKind kind, const Spring
 
 PlanLine internal_damping_line(const SheetProperties& sheet)
 {
-  const auto is_damped = [](const SpringProperties& kind) { return kind.stiffness > 0.0 && kind.damping > 0.0; };
-  const bool kept = is_damped(sheet.structural) || is_damped(sheet.shear) || is_damped(sheet.flex);
-  return { "internal damping", kept, kept ? "of the springs" : "no spring is damped" };
+  double most = 0.0;
+  for (const SpringProperties& kind : { sheet.structural, sheet.shear, sheet.flex })
+  {
+    most = kind.stiffness > 0.0 ? std::max(most, kind.damping) : most;
+  }
+  return { "internal damping", most > 0.0,
+           most > 0.0 ? "at most " + format_number(most) + " N s/m" : "no spring is damped" };
 }
 
 PlanLine gravity_line(const SceneParams& scene)
