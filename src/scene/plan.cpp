@@ -141,6 +141,30 @@ PlanLine method_line(const SceneParams& scene)
 }
 
 constexpr const char* start_part = "start";
+constexpr const char* sleep_part = "sleep";
+/// A cloth sleeps where going on would move no node by more than this part of the tolerance.
+constexpr double share_of_sleep = 0.25;
+
+double sleep_distance(const SceneParams& scene)
+{
+  const bool may_sleep = scene.plan == "auto" && scene.solver.method == "auto";
+  return may_sleep ? share_of_sleep * scene.solver.tolerance : 0.0;
+}
+
+PlanLine sleep_line(const SceneParams& scene)
+{
+  if (scene.plan != "auto")
+  {
+    return { sleep_part, false, "plan is " + scene.plan };
+  }
+  if (scene.solver.method != "auto")
+  {
+    return { sleep_part, false, "solver.method is " + scene.solver.method + ", not auto" };
+  }
+  return { sleep_part, true,
+           "no steps while the sheet is at rest, within " + format_number(sleep_distance(scene)) +
+               " m, a quarter of the tolerance" };
+}
 
 void require_fitting_compliance(const SolverParams& solver)
 {
@@ -161,6 +185,8 @@ Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneSta
   plan.choice.tolerance = scene.solver.tolerance;
   plan.choice.iterations = scene.solver.iterations;
   plan.start = start.state;
+  plan.start_is_settled = start.is_settled;
+  plan.sleep_distance = sleep_distance(scene);
   plan.lines = {
     spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),
     spring_line(scene.sheet, SpringKind::shear, scene.sheet.shear),
@@ -172,6 +198,7 @@ Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneSta
     pin_line(pins_of(scene.pins, model, model.rest_positions)),
     { start_part, true, start.description },
     method_line(scene),
+    sleep_line(scene),
   };
   if (!strain_limit_line(scene).kept)
   {
@@ -193,6 +220,8 @@ SimulationSetup setup_of(const Plan& plan)
   setup.time_step = scene.solver.time_step;
   setup.threads = scene.solver.threads;
   setup.start = plan.start;
+  setup.start_is_settled = plan.start_is_settled;
+  setup.sleep_distance = plan.sleep_distance;
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
   return setup;
 }
@@ -241,7 +270,7 @@ Plan make_plan(const SceneParams& scene, const SceneStart& start)
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
-  SceneStart start{ running.start, {} };
+  SceneStart start{ running.start, {}, running.start_is_settled };
   for (const PlanLine& line : running.lines)
   {
     start.description = line.part == start_part ? line.reason : start.description;
@@ -315,6 +344,10 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
   for (const PlanLine& line : plan.lines)
   {
     lines.push_back(line.part + ": " + (line.kept ? "kept, " : "left out, ") + line.reason);
+    if (line.part == sleep_part && simulation.asleep_since())
+    {
+      lines.back() += "; asleep since " + format_number(*simulation.asleep_since()) + " s";
+    }
   }
   lines.push_back("threads: " + described_threads(simulation));
   lines.push_back("time step: " + described_step(plan.scene.solver.time_step, simulation, stability_limit));

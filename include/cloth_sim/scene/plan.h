@@ -27,6 +27,8 @@ struct Plan
   const MethodRow* method = nullptr;
   Choice choice;
   ClothState start;  ///< the sheet at time 0
+  bool start_is_settled = false;
+  double sleep_distance = 0.0;  ///< m, see SimulationSetup
   std::vector<PlanLine> lines;
 };
 
