@@ -270,7 +270,7 @@ Plan make_plan(const SceneParams& scene, const SceneStart& start)
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
-  SceneStart start{ running.start, {}, running.start_is_settled };
+  SceneStart start{ running.start, {}, false };
   for (const PlanLine& line : running.lines)
   {
     start.description = line.part == start_part ? line.reason : start.description;

@@ -39,7 +39,7 @@ Simulation::Simulation(SimulationSetup setup)
   , method_settings_(setup.method_settings)
   , given_time_step_(setup.time_step)
   , state_(std::move(setup.start))
-  , rest_watch_(setup.sleep_distance, setup.start_is_settled)
+  , rest_watch_(setup.sleep_distance)
 {
   if (method_row_ == nullptr)
   {
@@ -57,6 +57,10 @@ Simulation::Simulation(SimulationSetup setup)
   }
   dynamics_.pins().impose(state_.time, state_.positions, state_.velocities);
   changed_from_outside();
+  if (setup.start_is_settled)
+  {
+    rest_watch_.begin_settled(dynamics_, state_);
+  }
 }
 
 Simulation Simulation::gone_over_to(SimulationSetup setup) const
@@ -186,6 +190,7 @@ void Simulation::take_equal_steps(double time, double longest)
   {
     step(h);
     state_.time = s == steps ? time : begin + static_cast<double>(s) * h;
+    rest_watch_.look(state_);
   }
 }
 
@@ -199,6 +204,7 @@ void Simulation::take_adaptive_steps(double time, double longest)
     {
       state_.time = time;
     }
+    rest_watch_.look(state_);
   }
 }
 
@@ -220,7 +226,7 @@ void Simulation::changed_from_outside()
   guard_.open(dynamics_, state_);
   last_good_ = state_;
   asleep_since_.reset();
-  rest_watch_.begin(state_);
+  rest_watch_.begin(dynamics_, state_);
 }
 
 double Simulation::stability_limit() const
@@ -281,7 +287,7 @@ void Simulation::measure_reactions(bool measure)
   if (measure)
   {
     wake();
-    rest_watch_.begin(state_);
+    rest_watch_.begin(dynamics_, state_);
     measured_since_ = state_.time;
     velocities_before_ = state_.velocities;
     impulses_.setZero(model().nodes(), 3);
@@ -314,7 +320,7 @@ void Simulation::set_wind(const Eigen::Vector3d& wind)
   {
     dynamics_.air().set_wind(wind);
     wake();
-    rest_watch_.begin(state_);
+    rest_watch_.begin(dynamics_, state_);
   }
   else if (asleep_since_)
   {
@@ -393,7 +399,7 @@ bool Simulation::is_there(const Pin& pin, const Eigen::Isometry3d& placement) co
 void Simulation::pins_sent_elsewhere()
 {
   wake();
-  rest_watch_.begin(state_);
+  rest_watch_.begin(dynamics_, state_);
   method_->restart();
   guard_.allow_pin_motion(dynamics_);
 }
