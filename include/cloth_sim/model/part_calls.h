@@ -50,8 +50,8 @@ struct PartCalls
   void add_difference(const PartCalls& before, const PartCalls& after);
 };
 
-/// What this thread has called since it began. The code of the parts counts here itself: in the thread that does node
-/// 0, which is the one that called.
+/// What this thread has called since it began. The code of the parts counts here itself, where it does node 0;
+/// Dynamics::for_each_band hands on to the thread that called it what another did.
 PartCalls& part_calls();
 
 /// One call of the batch's springs, whether for their forces or for what follows from those.
