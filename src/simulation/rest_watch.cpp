@@ -12,6 +12,7 @@ namespace cloth
 namespace
 {
 
+constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double growth_of_windows = 2.0;
 /// A drift must have been this much slower, at most, than what is let down by its weight alone.
 constexpr double patience = 100.0;
@@ -33,7 +34,7 @@ bool is_driven(const Dynamics& dynamics, double time)
 double telling_window(const Dynamics& dynamics)
 {
   const double rate = dynamics.air().least_damping_rate(dynamics.model());
-  return rate > 0.0 ? std::max(RestWatch::shortest_window, 2.0 / rate) : std::numeric_limits<double>::infinity();
+  return rate > 0.0 ? std::max(RestWatch::shortest_window, 2.0 / rate) : never;
 }
 
 /// In which a sheet comes down that the air holds back, s; 0 without gravity.
@@ -58,9 +59,17 @@ RestWatch::RestWatch(double distance) : distance_(distance)
 
 void RestWatch::Looks::add(const ClothState& state)
 {
+  if (number == 0)
+  {
+    time = state.time;
+    positions = state.positions;
+  }
+  else
+  {
+    time += state.time;
+    positions += state.positions;
+  }
   ++number;
-  time += state.time;
-  positions += state.positions;
 }
 
 void RestWatch::begin(const Dynamics& dynamics, const ClothState& state)
@@ -84,11 +93,7 @@ void RestWatch::begin_window(const ClothState& state)
   has_moved_ = false;
   begin_ = state.time;
   positions_ = state.positions;
-  for (Looks& looks : halves_)
-  {
-    looks = { 0, 0.0, Vectors::Zero(state.positions.rows(), 3) };
-  }
-  halves_[0].add(state);
+  halves_[0].number = halves_[1].number = 0;
   next_look_ = begin_ + between_looks;
 }
 
@@ -101,7 +106,9 @@ void RestWatch::take_look(const ClothState& state)
     return;
   }
   has_moved_ = has_moved_ || way > 0.0;
-  halves_[state.time - begin_ < 0.5 * window_ ? 0 : 1].add(state);
+  // A half has one look at least, however long steps are.
+  const bool is_early = state.time - begin_ < 0.5 * window_ || halves_[0].number == 0;
+  halves_[is_early ? 0 : 1].add(state);
   next_look_ = state.time + between_looks;
 }
 
@@ -115,8 +122,12 @@ bool RestWatch::finds_rest(const Dynamics& dynamics, const StrainLimit& limit, c
   is_settled_ = false;
   if (is_driven(dynamics, state.time))
   {
-    begin_window(state);
+    next_look_ = never;
     return false;
+  }
+  if (next_look_ == never)
+  {
+    begin_window(state);
   }
   if (is_settled)
   {
@@ -127,7 +138,7 @@ bool RestWatch::finds_rest(const Dynamics& dynamics, const StrainLimit& limit, c
   {
     return true;
   }
-  if (duration < window_ || halves_[1].number == 0)
+  if (duration < window_ || halves_[0].number == 0 || halves_[1].number == 0)
   {
     return false;
   }

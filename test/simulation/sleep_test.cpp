@@ -144,6 +144,7 @@ TEST(Sleep, DoesNotTakeWhatCreepsForRest)
     SceneParams scene = hanging_sheet();
     scene.strain_limit.max_strain = max_strain;
     scene.air.viscous_damping = 5e5;
+    scene.start.initial_stretch.setOnes();
     Simulation simulation = simulation_of(scene);
     run(simulation, 5.0);
     const Vectors before = simulation.state().positions;
