@@ -39,9 +39,17 @@ SceneParams stiff_sheet_without_limit()
   return scene;
 }
 
+/// As if trials had chosen this method.
+Plan plan_of(const SceneParams& scene)
+{
+  Choice choice;
+  choice.method = "velocity_verlet";
+  return make_plan(scene, choice);
+}
+
 Simulation simulation_of(const SceneParams& scene)
 {
-  return build_simulation(make_plan(scene));
+  return build_simulation(plan_of(scene));
 }
 
 Simulation without_sleep(SceneParams scene)
@@ -276,7 +284,7 @@ TEST(Sleep, EndsWithTheFirstStepAfterAChangeAndLeavesNoTrace)
     run(simulation, 1.0);
     SceneParams full = scene;
     full.plan = "full";
-    Plan plan = make_plan(full);
+    Plan plan = plan_of(full);
     plan.start = simulation.state();
     Simulation never_slept = build_simulation(plan);
     change.make(simulation);
@@ -316,7 +324,7 @@ TEST(Sleep, EndsWithoutAJumpInTheHoldOfTheStrainLimit)
 TEST(Sleep, EndsWhenPropertiesChange)
 {
   SceneParams scene = stiff_sheet_without_limit();
-  const Plan plan = make_plan(scene);
+  const Plan plan = plan_of(scene);
   Simulation simulation = asleep(scene);
   scene.sheet.structural.stiffness = 500.0;
   Simulation changed = carry_on(live_plan(plan, scene), simulation);
