@@ -55,9 +55,11 @@ cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp
   test/simulation/failure_test.cpp
+  test/simulation/part_calls_test.cpp
   test/simulation/reactions_test.cpp
   test/simulation/settle_test.cpp
   test/simulation/simulation_test.cpp
+  test/simulation/sleep_test.cpp
   test/simulation/statics_test.cpp
 )
 cloth_add_test(planning

@@ -562,6 +562,7 @@ void ClothNode::publish_diagnostics_when_due()
   condition.asked = cloth_->plan.scene.node;
   condition.strain_limit = cloth_->plan.scene.strain_limit.max_strain;
   condition.divergence = cloth_->simulation.divergence_report();
+  condition.asleep_since = cloth_->simulation.asleep_since();
   condition.transform = frames_.last_use();
   condition.tick_under_way = tick_begin_ ? std::chrono::duration<double>(now - *tick_begin_).count() : 0.0;
   health_.publish(condition, now);
