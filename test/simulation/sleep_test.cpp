@@ -145,6 +145,24 @@ TEST(Sleep, NeverTakesASwingAtItsTurningPoint)
   }
 }
 
+TEST(Sleep, WaitsForTheEndOfASwingInTheHoldOfTheStrainLimit)
+{
+  SceneParams scene = hanging_sheet();
+  scene.air.viscous_damping = 0.1;
+  scene.air.wind_coupling = 0.0;
+  Simulation simulation = simulation_of(scene);
+  Simulation other = without_sleep(scene);
+  run_until_asleep(simulation, 45.0);
+  EXPECT_GT(simulation.counters().limit_sweeps, 0u);
+  run(other, simulation.state().time);
+  const Vectors shape = simulation.state().positions;
+  for (int k = 0; k < 40 && simulation.asleep_since(); ++k)
+  {
+    run(other, 0.1);
+    EXPECT_LT(farthest(shape, other.state().positions), distance);
+  }
+}
+
 TEST(Sleep, DoesNotTakeWhatCreepsForRest)
 {
   for (const double max_strain : { 0.0, 0.1 })
