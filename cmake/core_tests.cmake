@@ -87,12 +87,15 @@ add_dependencies(test_tools cloth_run)
 cloth_add_test(bench
   test/bench/bench_test.cpp
   test/bench/cloth_bench_test.cpp
+  test/bench/drawn_scene_test.cpp
   test/bench/errors_test.cpp
+  test/bench/plan_trial_test.cpp
   test/bench/problem_test.cpp
   test/bench/reference_test.cpp
+  test/bench/search_test.cpp
   test/bench/slopes_test.cpp
 )
-target_link_libraries(test_bench cloth_bench_parts)
+target_link_libraries(test_bench plan_matrix_parts)
 target_compile_definitions(test_bench PRIVATE CLOTH_BENCH="$<TARGET_FILE:cloth_bench>")
 add_dependencies(test_bench cloth_bench)
 

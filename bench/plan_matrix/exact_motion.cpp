@@ -15,6 +15,8 @@ constexpr double disturbance = 1e-9;  // m
 /// A formula of order 8 of a library takes up to so many times as long as ours of order 5.
 constexpr double cost_of_independence = 6.0;
 constexpr double coarser = 10.0;
+/// What a step leaves grows with the motion: where that comes to so many times what may be left, no check is needed.
+constexpr double hopeless = 100.0;
 
 std::string in_short(double number)
 {
@@ -109,6 +111,11 @@ Reference find_exact_motion(const Problem& problem, const Solver* independent, c
     {
       motion.reason = "a disturbance of 1e-9 m grows " + in_short(motion.growth) + " times; and rounding with it";
       return motion;
+    }
+    const bool is_hopeless = motion.growth * tolerance > hopeless * settings.most_disagreement;
+    if (is_hopeless && tolerance > 1.01 * settings.tightest_tolerance)
+    {
+      continue;
     }
     const Check check = checked(problem, base, independent, tolerance, settings.most_seconds);
     motion.disagreement = check.disagreement;

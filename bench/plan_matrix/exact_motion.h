@@ -11,8 +11,8 @@ namespace cloth
 struct MotionSettings
 {
   double first_tolerance = 1e-9;      ///< m, of dopri5
-  double tightest_tolerance = 1e-12;  ///< m; tightened tenfold at a time while its checks disagree
-  double most_disagreement = 1e-6;    ///< m; 1 % of the tightest tolerance that a planner is given
+  double tightest_tolerance = 1e-13;  ///< m; tightened tenfold at a time while its checks disagree
+  double most_disagreement = 4e-6;    ///< m; 4 % of the tightest tolerance that a planner is given
   double most_seconds = 120.0;        ///< of processor time, of one run
   double rounding = 1e-15;            ///< m; what it may leave of a position in a run where nothing grows
 };

@@ -22,8 +22,8 @@ struct TrialSettings
   double horizon = 1.0;                                ///< s
   double most_cost = 20.0;                             ///< a plan may run for so many times the best of the search
   double most_seconds = 60.0;  ///< of processor time, where no run of the search met the tolerance
-  int runs = 3;                ///< of a plan, in turn with the best of the search; of a long one a single one
-  double long_run = 3.0;       ///< s of processor time
+  int runs = 5;                ///< of a plan, in turn with the best of the search; of a long one a single one
+  double long_run = 2.0;       ///< s of processor time
   double least_timed = 0.02;   ///< s; shorter runs are made again until they come to this
   bool weighs_parts = true;
   MotionSettings motion;

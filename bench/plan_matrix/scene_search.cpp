@@ -73,7 +73,7 @@ constexpr const char* draw_header =
 
 Solvers solvers_to_search()
 {
-  constexpr std::array<const char*, 4> first{ "velocity_verlet", "implicit_midpoint", "rk4", "dopri5" };
+  constexpr std::array<const char*, 4> first{ "dopri5", "velocity_verlet", "rk4", "implicit_midpoint" };
   const auto place = [&first](const std::unique_ptr<Solver>& solver) {
     return std::find(first.begin(), first.end(), solver->name());
   };
