@@ -36,7 +36,7 @@ void draw_grid(Draw& draw, int most_per_side, SheetProperties& sheet)
 void draw_springs(Draw& draw, SheetProperties& sheet)
 {
   const double node_mass = sheet.mass / ((sheet.rows - 1) * (sheet.cols - 1));
-  const double damping_ratio = draw.once_in(1, 5) ? 0.0 : draw.logarithmic(0.003, 0.3);
+  const double damping_ratio = draw.once_in(1, 8) ? 0.0 : draw.logarithmic(0.02, 0.7);
   const auto springs = [&](double stiffness, double ratio) {
     return SpringProperties{ stiffness, ratio * 2.0 * std::sqrt(stiffness * node_mass) };
   };
@@ -55,8 +55,8 @@ Eigen::Vector3d drawn_direction(Draw& draw)
 
 void draw_air(Draw& draw, AirProperties& air)
 {
-  air.viscous_damping = draw.once_in(1, 5) ? 0.0 : draw.logarithmic(0.03, 3.0);
-  air.wind_coupling = draw.once_in(3, 10) ? 0.0 : draw.logarithmic(0.05, 3.0);
+  air.viscous_damping = draw.once_in(1, 8) ? 0.0 : draw.logarithmic(0.1, 3.0);
+  air.wind_coupling = draw.once_in(3, 10) ? 0.0 : draw.logarithmic(0.1, 3.0);
   const double speed = draw.once_in(2, 5) ? 0.0 : draw.logarithmic(0.5, 8.0);
   air.wind = speed * drawn_direction(draw);
   if (draw.once_in(1, 5))
@@ -68,8 +68,8 @@ void draw_air(Draw& draw, AirProperties& air)
 /// Half of those that move begin at rest, the others at full speed.
 Oscillation drawn_motion(Draw& draw)
 {
-  const double size = draw.logarithmic(0.01, 0.15);
-  return { size * drawn_direction(draw), draw.logarithmic(0.5, 4.0), draw.once_in(1, 2) ? 0.5 * pi : 0.0 };
+  const double size = draw.logarithmic(0.01, 0.1);
+  return { size * drawn_direction(draw), draw.logarithmic(0.3, 2.0), draw.once_in(1, 2) ? 0.5 * pi : 0.0 };
 }
 
 std::vector<PinParams> drawn_pins(Draw& draw)
@@ -97,7 +97,7 @@ std::vector<PinParams> drawn_pins(Draw& draw)
 /// Half of the sheets hang nearly as they will hang, the others fall.
 void draw_start(Draw& draw, const SheetProperties& sheet, StartParams& start)
 {
-  const double lift = draw.once_in(1, 2) ? draw.even(-0.3, 0.3) : draw.even(0.8, 1.6);
+  const double lift = draw.once_in(1, 2) ? draw.even(-0.3, 0.3) : draw.even(0.5, 1.3);
   start.rpy = { lift, 0.0, draw.even(-pi, pi) };
   start.ripple = std::min(sheet.width, sheet.height) * draw.logarithmic(0.005, 0.05);
 }

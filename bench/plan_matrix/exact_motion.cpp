@@ -107,9 +107,9 @@ Reference find_exact_motion(const Problem& problem, const Solver* independent, c
       return motion;
     }
     motion.growth = motion.growth > 0.0 ? motion.growth : growth_of(problem, base, tolerance, settings.most_seconds);
-    if (motion.growth * settings.rounding > settings.most_disagreement)
+    if (motion.growth > settings.most_growth)
     {
-      motion.reason = "a disturbance of 1e-9 m grows " + in_short(motion.growth) + " times; and rounding with it";
+      motion.reason = "chaos: a disturbance of 1e-9 m grows " + in_short(motion.growth) + " times";
       return motion;
     }
     const bool is_hopeless = motion.growth * tolerance > hopeless * settings.most_disagreement;

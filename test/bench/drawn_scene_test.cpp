@@ -85,10 +85,10 @@ TEST(DrawnScene, IsTheSceneThatItWasWhenItWasFirstDrawn)
   const SceneParams scene = drawn_scene({ 1, 2, 0, 96 });
   const SceneParams again = drawn_scene({ 1, 2, 0, 96 });
   EXPECT_EQ(yaml_of(scene), yaml_of(again));
-  EXPECT_EQ(scene.sheet.rows, 10);
-  EXPECT_EQ(scene.sheet.cols, 12);
+  EXPECT_EQ(scene.sheet.rows, 9);
+  EXPECT_EQ(scene.sheet.cols, 14);
   EXPECT_EQ(scene.sheet.structural.stiffness, 1730.0);
-  EXPECT_EQ(scene.air.viscous_damping, 0.0332);
+  EXPECT_EQ(scene.air.viscous_damping, 0.108);
 }
 
 TEST(DrawnScene, IsAnotherWithEachSeedNumberAndAttempt)
@@ -147,8 +147,8 @@ TEST(DrawnScene, LeavesPartsOutAsOftenAsItShould)
   };
   expect_share(1.0 / 8.0, [](const SceneParams& scene) { return scene.sheet.shear.stiffness == 0.0; });
   expect_share(1.0 / 6.0, [](const SceneParams& scene) { return scene.sheet.flex.stiffness == 0.0; });
-  expect_share(1.0 / 5.0, [](const SceneParams& scene) { return scene.sheet.structural.damping == 0.0; });
-  expect_share(1.0 / 5.0, [](const SceneParams& scene) { return scene.air.viscous_damping == 0.0; });
+  expect_share(1.0 / 8.0, [](const SceneParams& scene) { return scene.sheet.structural.damping == 0.0; });
+  expect_share(1.0 / 8.0, [](const SceneParams& scene) { return scene.air.viscous_damping == 0.0; });
   expect_share(3.0 / 10.0, [](const SceneParams& scene) { return scene.air.wind_coupling == 0.0; });
   expect_share(2.0 / 5.0, [](const SceneParams& scene) { return scene.air.wind.isZero(0.0); });
   expect_share(1.0 / 5.0, [](const SceneParams& scene) { return scene.air.gusts.strength > 0.0; });
