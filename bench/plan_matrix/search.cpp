@@ -155,6 +155,8 @@ void Search::climb(const Solver& solver)
 {
   double before = 0.0;
   double expected = 0.0;
+  int slow_starts = 0;
+  bool any_complete = false;
   for (const double value : solver.ladder(problem_, settings_.ratio))
   {
     const double most = most_cost(solver);
@@ -163,7 +165,8 @@ void Search::climb(const Solver& solver)
       return;
     }
     const Measurement row = measure(solver, value, most, expected);
-    if (row.status == name_of(Status::too_slow))
+    any_complete = any_complete || row.is_complete();
+    if (row.status == name_of(Status::too_slow) && (any_complete || ++slow_starts > settings_.most_slow_starts))
     {
       return;
     }

@@ -17,6 +17,8 @@ struct SearchSettings
   double drop_factor = 3.0;     ///< a run that takes so many times the best of those that are exact enough is dropped
   double most_seconds = 60.0;   ///< of processor time, of one run
   double ratio = 2.0;           ///< between the settings of a ladder
+  int most_slow_starts = 2;     ///< settings that may be dropped before any has come to its end: equations of long
+                                ///< steps take long to solve, and a shorter one may be quicker
   int refinements = 2;          ///< times that the gap in which a tolerance begins to be met is halved
   double worth_refining = 1.5;  ///< where a run in the gap would cost at most so many times the best
   double worth_repeating = 1.25;

@@ -151,6 +151,42 @@ TEST_F(SearchOfLaws, DropsWhatCostsThreeTimesTheBest)
   EXPECT_EQ(std::count_if(rows.begin(), rows.end(), is_dropped), 1);
 }
 
+/// As a method does whose long steps have equations that are hard to solve.
+class SlowAtFirst : public LawfulSolver
+{
+public:
+  SlowAtFirst(double longest_quick, std::vector<double>& costs)
+    : LawfulSolver("slow_at_first", 2, 1e-3, 1.0, costs), longest_quick_(longest_quick)
+  {
+  }
+  Outcome run(const Problem& problem, double value, double most_seconds) const override
+  {
+    Outcome outcome = LawfulSolver::run(problem, value, most_seconds);
+    outcome.status = value > longest_quick_ ? Status::too_slow : Status::ok;
+    return outcome;
+  }
+
+private:
+  double longest_quick_;
+};
+
+TEST_F(SearchOfLaws, GoesOnWhereTheFirstSettingsAreTooSlow)
+{
+  add("second_order", 2, 1.0, 20.0);
+  const double first = problem_.sample_interval();
+  solvers_.push_back(std::make_unique<SlowAtFirst>(0.3 * first, costs_["slow_at_first"]));
+  EXPECT_EQ(best_of(search(), 1e-2)->row.solver, "slow_at_first");
+}
+
+TEST_F(SearchOfLaws, GivesUpWhereTheFirstThreeSettingsAreTooSlow)
+{
+  add("second_order", 2, 1.0, 20.0);
+  const double first = problem_.sample_interval();
+  solvers_.push_back(std::make_unique<SlowAtFirst>(0.2 * first, costs_["slow_at_first"]));
+  EXPECT_EQ(best_of(search(), 1e-2)->row.solver, "second_order");
+  EXPECT_EQ(costs_["slow_at_first"].size(), 3U);
+}
+
 TEST_F(SearchOfLaws, TakesNothingThatDidNotSolveItsEquations)
 {
   add("second_order", 2, 1.0, 20.0);
