@@ -3,6 +3,7 @@
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from plan_matrix import verdict
 
@@ -14,7 +15,7 @@ def draw_all(halves):
     """Pairs of a name and a figure."""
     for name, draw in (("honest", draw_honest), ("cheap", draw_cheap), ("planning", draw_planning),
                        ("monotone", draw_monotone), ("necessary", draw_necessary)):
-        figure, rows = plt.subplots(1, len(halves), figsize=(4.6 * len(halves), 3.8), squeeze=False, sharey=True)
+        figure, rows = plt.subplots(1, len(halves), figsize=(4.6 * len(halves), 3.8), squeeze=False, sharex=True, sharey=True)
         for axes, half in zip(rows[0], halves):
             draw(axes, half)
             axes.set_title(half.name.replace("_", " "))
@@ -67,6 +68,7 @@ def draw_shares(axes, half, value, most, name):
 def draw_cheap(axes, half):
     draw_shares(axes, half, lambda plan: verdict.ratio(plan.cost, plan.best_cost), verdict.MOST_COST,
                 "cost, times the best of the search")
+    number_plainly(axes.xaxis)
 
 
 def draw_planning(axes, half):
@@ -75,15 +77,24 @@ def draw_planning(axes, half):
 
 
 def draw_monotone(axes, half):
-    """A line a scene."""
+    """A line a scene: what is the same choice costs the same."""
     axes.set(xscale="log", yscale="log", xlabel="tolerance, m", ylabel="cost, times that at the tightest tolerance")
     for scene in sorted({plan.scene for plan in half.plans}):
-        plans = sorted((plan for plan in half.plans if plan.scene == scene and plan.cost),
+        plans = sorted((plan for plan in half.plans if plan.scene == scene and verdict.went_well(plan)),
                        key=lambda plan: plan.tolerance)
-        if plans:
-            costs = [plan.cost / plans[0].cost for plan in plans]
-            is_good = all(loose <= verdict.MONOTONE_MARGIN * tight for tight, loose in zip(costs, costs[1:]))
-            axes.plot([plan.tolerance for plan in plans], costs, color="#999999" if is_good else "#cc3311", linewidth=0.8)
+        costs = [1.0]
+        for tight, loose in zip(plans, plans[1:]):
+            costs.append(costs[-1] * verdict.cost_ratio(loose, tight))
+        is_good = all(loose <= verdict.MONOTONE_MARGIN * tight for tight, loose in zip(costs, costs[1:]))
+        axes.plot([plan.tolerance for plan in plans], costs[:len(plans)], color="#999999" if is_good else "#cc3311",
+                  linewidth=0.8)
+    number_plainly(axes.yaxis)
+
+
+def number_plainly(axis):
+    axis.set_major_locator(LogLocator(base=10.0, subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: "{:g}".format(value)))
+    axis.set_minor_locator(NullLocator())
 
 
 def draw_necessary(axes, half):
@@ -99,7 +110,8 @@ def draw_necessary(axes, half):
                       label={"yes": "left out", "no": "kept"}[was] if place == 0 else None)
     axes.set_yticks(range(len(names)))
     axes.set_yticklabels(names)
+    axes.set_ylim(-0.5, max(1, len(names)) - 0.5)
     axes.axvline(1.0, color="#0072b2", linestyle=":", linewidth=1.0)
     axes.axvline(verdict.NECESSARY_SHARE, color="#333333", linestyle=":", linewidth=1.0)
     if names:
-        axes.legend(frameon=False)
+        axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=2)

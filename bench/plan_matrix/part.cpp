@@ -1,6 +1,7 @@
 #include "part.h"
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include "cloth_sim/scene/yaml_text.h"
@@ -78,6 +79,17 @@ SceneParams without(const PartNames& names, SceneParams scene)
     found->remove(scene);
   }
   return scene;
+}
+
+PartNames names_in(const std::string& text)
+{
+  PartNames names;
+  std::istringstream words(text);
+  for (std::string name; std::getline(words, name, '+');)
+  {
+    names.insert(name);
+  }
+  return names;
 }
 
 std::string joined(const PartNames& names)

@@ -31,5 +31,7 @@ SceneParams without(const PartNames& names, SceneParams scene);
 
 /// "flex springs+wind"; empty: none.
 std::string joined(const PartNames& names);
+/// And back.
+PartNames names_in(const std::string& text);
 
 }  // namespace cloth

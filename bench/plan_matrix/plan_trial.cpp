@@ -51,17 +51,6 @@ void take_choice(const Plan& plan, PlanRow& row)
   row.estimated_cost = plan.choice.cost;
 }
 
-PartNames names_in(const std::string& text)
-{
-  PartNames names;
-  std::istringstream words(text);
-  for (std::string name; std::getline(words, name, '+');)
-  {
-    names.insert(name);
-  }
-  return names;
-}
-
 /// With the part where it was without, and the other way round.
 PartNames turned_over(PartNames names, const std::string& part)
 {

@@ -103,15 +103,20 @@ def choice(plan):
             plan.iterations if plan.method in ("projective", "xpbd") else None)
 
 
+def cost_ratio(one, other):
+    """What is the same choice costs the same."""
+    return 1.0 if choice(one) == choice(other) else ratio(one.cost, other.cost)
+
+
 def monotone(half):
-    """Of each scene, every tolerance against the next tighter one. What is the same choice costs the same."""
+    """Of each scene, every tolerance against the next tighter one."""
     cases = []
     for scene in sorted({plan.scene for plan in half.plans}):
         plans = sorted((plan for plan in half.plans if plan.scene == scene), key=lambda plan: -plan.tolerance)
         for loose, tight in zip(plans, plans[1:]):
             if not went_well(loose) or not went_well(tight):
                 continue
-            value = 1.0 if choice(loose) == choice(tight) else ratio(loose.cost, tight.cost)
+            value = cost_ratio(loose, tight)
             cases.append(Case(about(loose), value <= MONOTONE_MARGIN, value))
     return cases
 
