@@ -105,13 +105,6 @@ Parameter<SceneParams> path_or_none(const char* key, const char* meaning, Access
   return parameter;
 }
 
-// An accessor that serves for reading and for writing.
-#define CLOTH_MEMBER(path)  \
-  [](auto& target) -> auto& \
-  {                         \
-    return target.path;     \
-  }
-
 std::vector<Parameter<SceneParams>> make_table()
 {
   using Scene = RowsOf<SceneParams>;
@@ -272,8 +265,6 @@ std::vector<Parameter<PinParams>> make_pin_table()
     Pin::number("motion.phase", "rad", any, "phase", CLOTH_MEMBER(motion.phase)),
   };
 }
-
-#undef CLOTH_MEMBER
 
 }  // namespace
 

@@ -37,6 +37,7 @@ Simulation::Simulation(SimulationSetup setup)
   , strain_limit_(dynamics_.model(), setup.strain_limit)
   , method_row_(setup.method)
   , given_time_step_(setup.time_step)
+  , given_share_(setup.keeps_within_limit ? limit_share : std::numeric_limits<double>::infinity())
   , state_(std::move(setup.start))
 {
   if (method_row_ == nullptr)
@@ -62,7 +63,7 @@ Simulation Simulation::gone_over_to(SimulationSetup setup) const
   setup.pins = pins().all();
   setup.start = state_;
   Simulation next(std::move(setup));
-  next.keeps_within_limit_ = true;
+  next.given_share_ = std::min(next.given_share_, 1.0);
   next.strain_limit_.go_on_from(strain_limit_);
   next.last_step_ = last_step_;
   next.divergence_ = divergence_;
@@ -206,13 +207,13 @@ double Simulation::longest_step() const
   {
     return given_time_step_ > 0.0 ? given_time_step_ : std::numeric_limits<double>::infinity();
   }
-  return given_time_step_ > 0.0 && !keeps_within_limit_ ? given_time_step_ : limited_step();
+  return given_time_step_ > 0.0 && std::isinf(given_share_) ? given_time_step_ : limited_step();
 }
 
 double Simulation::limited_step() const
 {
   const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
-  if (given_time_step_ > 0.0 && given_time_step_ <= limit)
+  if (given_time_step_ > 0.0 && given_time_step_ <= given_share_ * limit)
   {
     return given_time_step_;
   }

@@ -58,7 +58,7 @@ void write_csv_sample(std::ostream& stream, const ClothState& state)
 }
 
 void write_summary(std::ostream& stream, const Simulation& simulation, double wall_time,
-                   const std::vector<std::string>& plan)
+                   const std::vector<std::string>& plan, const Choice& choice)
 {
   const ClothState& state = simulation.state();
   const Simulation::Counters& counters = simulation.counters();
@@ -86,6 +86,8 @@ void write_summary(std::ostream& stream, const Simulation& simulation, double wa
   emit(emitter, "momentum", momentum_of(simulation.model(), state));
   emit(emitter, "angular_momentum", angular_momentum_of(simulation.model(), state));
   emitter << YAML::Key << "plan" << YAML::Value << plan;
+  emitter << YAML::Key << "choice" << YAML::Value;
+  write_choice(emitter, choice);
   emitter << YAML::EndMap;
   stream << emitter.c_str() << "\n";
 }

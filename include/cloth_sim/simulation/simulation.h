@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,7 @@ struct SimulationSetup
   MethodSettings method_settings;
   double time_step = 0.0;  ///< s; 0: 0.9 of the stability limit as it is, or 1/240 where there is none; of an adaptive
                            ///< method the largest step, 0: none
+  bool keeps_within_limit = false;  ///< a given step is shortened to 0.9 of the stability limit where it is longer
   int threads = 1;         ///< the most that share a step; 0: those of the machine, `chosen_threads` at most
   ClothState start;
 };
@@ -169,7 +171,7 @@ private:
   const MethodRow* method_row_;
   std::unique_ptr<Method> method_;
   double given_time_step_;
-  bool keeps_within_limit_ = false;  ///< a given step is cut to what is stable
+  double given_share_ = std::numeric_limits<double>::infinity();  ///< of the stability limit, which a given step keeps
   double last_step_ = 0.0;
   ClothState state_;
   ClothState last_good_;
