@@ -15,7 +15,7 @@ add_library(plan_matrix_parts STATIC EXCLUDE_FROM_ALL
   bench/plan_matrix/scene_search.cpp
   bench/plan_matrix/search.cpp
 )
-target_include_directories(plan_matrix_parts PUBLIC bench/plan_matrix)
+target_include_directories(plan_matrix_parts PUBLIC bench/plan_matrix PRIVATE src/planning)
 target_link_libraries(plan_matrix_parts PUBLIC cloth_bench_parts)
 
 add_executable(plan_matrix EXCLUDE_FROM_ALL bench/plan_matrix/plan_matrix.cpp)

@@ -148,7 +148,7 @@ PlanRow PlanTrial::tried(const SearchedScene& searched, double tolerance) const
   row.scene = searched.scene.name;
   row.fingerprint = searched.scene.fingerprint();
   row.tolerance = tolerance;
-  const std::optional<Candidate> best = best_of(searched.rows, tolerance);
+  const std::optional<Contender> best = best_of(searched.rows, tolerance);
   if (best)
   {
     row.best_solver = best->row.solver;
@@ -158,7 +158,7 @@ PlanRow PlanTrial::tried(const SearchedScene& searched, double tolerance) const
   }
   try
   {
-    const Planned made = planned(searched.scene.params, tolerance);
+    const TimedPlan made = timed_plan(searched.scene.params, tolerance);
     row.planning_seconds = made.seconds;
     row.planning = made.yardsticks;
     take_choice(made.plan, row);

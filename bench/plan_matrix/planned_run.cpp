@@ -8,13 +8,13 @@
 namespace cloth
 {
 
-Planned planned(SceneParams scene, double tolerance)
+TimedPlan timed_plan(SceneParams scene, double tolerance)
 {
   using Clock = std::chrono::steady_clock;
   scene.solver.tolerance = tolerance;
   const double before = Yardstick::shared().length();
   const Clock::time_point begin = Clock::now();
-  Planned result{ make_plan(scene), 0.0, 0.0 };
+  TimedPlan result{ make_plan(scene), 0.0, 0.0 };
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   result.yardsticks = result.seconds / (0.5 * (before + Yardstick::shared().length()));
   return result;

@@ -7,7 +7,7 @@ namespace cloth
 {
 
 /// What a planner makes of a scene.
-struct Planned
+struct TimedPlan
 {
   Plan plan;
   double seconds = 0.0;     ///< that planning took
@@ -15,7 +15,7 @@ struct Planned
 };
 
 /// Throws what `make_plan` throws.
-Planned planned(SceneParams scene, double tolerance);
+TimedPlan timed_plan(SceneParams scene, double tolerance);
 
 /// The plan as a user runs it; gives up as too slow after about `most_seconds` of processor time.
 Outcome run_of(const Plan& plan, const Problem& problem, double most_seconds);

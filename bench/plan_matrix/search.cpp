@@ -68,7 +68,7 @@ double median(std::vector<double> numbers)
   return numbers.size() % 2 == 1 ? numbers[middle] : 0.5 * (numbers[middle - 1] + numbers[middle]);
 }
 
-std::vector<Candidate> candidates_of(const std::vector<Measurement>& rows)
+std::vector<Contender> contenders_of(const std::vector<Measurement>& rows)
 {
   using Key = std::tuple<std::string, std::string, std::string>;
   std::map<Key, std::vector<const Measurement*>> groups;
@@ -76,7 +76,7 @@ std::vector<Candidate> candidates_of(const std::vector<Measurement>& rows)
   {
     groups[{ row.solver, row.setting, row.value }].push_back(&row);
   }
-  std::vector<Candidate> candidates;
+  std::vector<Contender> contenders;
   for (const auto& [key, group] : groups)
   {
     if (group.front()->status != name_of(Status::ok))
@@ -88,19 +88,19 @@ std::vector<Candidate> candidates_of(const std::vector<Measurement>& rows)
     {
       costs.push_back(cost_of(*row));
     }
-    candidates.push_back({ *group.front(), median(costs) });
+    contenders.push_back({ *group.front(), median(costs) });
   }
-  return candidates;
+  return contenders;
 }
 
-std::optional<Candidate> best_of(const std::vector<Measurement>& rows, double tolerance)
+std::optional<Contender> best_of(const std::vector<Measurement>& rows, double tolerance)
 {
-  std::optional<Candidate> best;
-  for (const Candidate& candidate : candidates_of(rows))
+  std::optional<Contender> best;
+  for (const Contender& contender : contenders_of(rows))
   {
-    if (meets(candidate.row, tolerance) && (!best || candidate.cost < best->cost))
+    if (meets(contender.row, tolerance) && (!best || contender.cost < best->cost))
     {
-      best = candidate;
+      best = contender;
     }
   }
   return best;
@@ -144,7 +144,7 @@ double Search::most_cost(const Solver& solver) const
     });
     if (!is_met)
     {
-      const std::optional<Candidate> best = best_of(rows_, tolerance);
+      const std::optional<Contender> best = best_of(rows_, tolerance);
       most = std::max(most, best ? settings_.drop_factor * best->cost : infinity);
     }
   }
@@ -204,7 +204,7 @@ void Search::refine(const Solver& solver, double tolerance)
       }
       coarse = row;
     }
-    const std::optional<Candidate> best = best_of(rows_, tolerance);
+    const std::optional<Contender> best = best_of(rows_, tolerance);
     if (coarse == nullptr || coarse == fine || !best)
     {
       return;
@@ -221,22 +221,22 @@ void Search::refine(const Solver& solver, double tolerance)
 
 void Search::repeat(const Solvers& solvers, double tolerance)
 {
-  const std::optional<Candidate> best = best_of(rows_, tolerance);
+  const std::optional<Contender> best = best_of(rows_, tolerance);
   if (!best)
   {
     return;
   }
-  for (const Candidate& candidate : candidates_of(rows_))
+  for (const Contender& contender : contenders_of(rows_))
   {
-    if (!meets(candidate.row, tolerance) || candidate.cost > settings_.worth_repeating * best->cost)
+    if (!meets(contender.row, tolerance) || contender.cost > settings_.worth_repeating * best->cost)
     {
       continue;
     }
     const auto solver = std::find_if(solvers.begin(), solvers.end(),
-                                     [&](const std::unique_ptr<Solver>& one) { return is_of(candidate.row, *one); });
+                                     [&](const std::unique_ptr<Solver>& one) { return is_of(contender.row, *one); });
     for (int repeat = 1; repeat < settings_.most_repeats; ++repeat)
     {
-      Measurement again = candidate.row;
+      Measurement again = contender.row;
       again.repeat = repeat;
       const auto is_there = [&](const Measurement& row) { return row.repeat == repeat && is_same_row(row, again); };
       if (std::any_of(rows_.begin(), rows_.end(), is_there))

@@ -33,17 +33,17 @@ double cost_of(const Measurement& row);
 double median(std::vector<double> numbers);
 
 /// One setting of one solver, with the median cost of its repeats.
-struct Candidate
+struct Contender
 {
   Measurement row;
   double cost = 0.0;
 };
 
 /// All settings among the rows that came to their end and solved their equations.
-std::vector<Candidate> candidates_of(const std::vector<Measurement>& rows);
+std::vector<Contender> contenders_of(const std::vector<Measurement>& rows);
 
 /// The cheapest whose error is at most `tolerance` (m), if there is one.
-std::optional<Candidate> best_of(const std::vector<Measurement>& rows, double tolerance);
+std::optional<Contender> best_of(const std::vector<Measurement>& rows, double tolerance);
 
 /// Runs all solvers over their settings from coarse to fine, and none beyond what could still be the best for some
 /// tolerance. It depends on the solvers and the machine, and on no planner.
