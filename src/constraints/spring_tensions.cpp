@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloth_sim/model/inverse_root.h"
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/spring_rows.h"
 #include "cloth_sim/model/wide_vectors.h"
 
@@ -318,6 +319,7 @@ void SpringTensions::scale_tensions(double factor)
 
 SpringTensions::Lengths SpringTensions::find_taut_blocks(const Eigen::VectorXd& inverse_masses, Vectors& positions)
 {
+  ++part_calls()[Part::strain_watch];
   Lengths longest = Lengths::slack;
   in_widest_vectors([&](auto) {
     for_each_block(false, [&](Batch& batch, const Block& block) {
@@ -347,6 +349,7 @@ SpringTensions::Lengths SpringTensions::find_taut_blocks(const Eigen::VectorXd& 
 
 void SpringTensions::relax_taut_blocks(bool backwards, const Eigen::VectorXd& inverse_masses, Vectors& positions)
 {
+  ++part_calls()[Part::strain_limit];
   ++now_;
   in_widest_vectors([&](auto arithmetic) {
     constexpr bool fused = arithmetic.has_fused_multiply_add;

@@ -182,7 +182,7 @@ std::vector<Parameter<SceneParams>> make_table()
     live(Scene::integer("air.gusts.seed", 0, 2147483647, "the same seed is the same gusts at the same simulated time",
                         CLOTH_MEMBER(air.gusts.seed))),
 
-    live(Scene::choice("solver.method", method_words(), "time-stepping method; auto is velocity_verlet",
+    live(Scene::choice("solver.method", method_words(), "time-stepping method; auto: trial runs at the start find the cheapest that meets solver.tolerance",
                        CLOTH_MEMBER(solver.method))),
     live(Scene::number(
         "solver.time_step", "s", Range{ 1e-9, true, infinity, true },
@@ -190,7 +190,8 @@ std::vector<Parameter<SceneParams>> make_table()
         "dopri5: the largest step, 0: none",
         CLOTH_MEMBER(solver.time_step))),
     live(Scene::number("solver.tolerance", "m", Range{ 1e-12, true },
-                       "dopri5: bounds the estimated position error of a step; auto does not use it yet",
+                       "auto: what the motion may err by, as a root mean square over all nodes and the first second; dopri5: bounds the "
+                       "estimated position error of a step",
                        CLOTH_MEMBER(solver.tolerance))),
     live(Scene::integer("solver.iterations", 1, 10000,
                         "projective: local-global iterations a step; xpbd: substeps a step",

@@ -48,9 +48,13 @@ PlanLine spring_line(const SheetProperties& sheet, SpringKind kind, const Spring
 
 PlanLine internal_damping_line(const SheetProperties& sheet)
 {
-  const auto is_damped = [](const SpringProperties& kind) { return kind.stiffness > 0.0 && kind.damping > 0.0; };
-  const bool kept = is_damped(sheet.structural) || is_damped(sheet.shear) || is_damped(sheet.flex);
-  return { "internal damping", kept, kept ? "of the springs" : "no spring is damped" };
+  double most = 0.0;
+  for (const SpringProperties& kind : { sheet.structural, sheet.shear, sheet.flex })
+  {
+    most = kind.stiffness > 0.0 ? std::max(most, kind.damping) : most;
+  }
+  return { "internal damping", most > 0.0,
+           most > 0.0 ? "at most " + format_number(most) + " N s/m" : "no spring is damped" };
 }
 
 PlanLine gravity_line(const SceneParams& scene)
@@ -161,6 +165,31 @@ Planned as_the_scene_says(const SceneParams& scene)
   return planned;
 }
 
+constexpr const char* sleep_part = "sleep";
+/// A cloth sleeps where going on would move no node by more than this part of the tolerance.
+constexpr double share_of_sleep = 0.25;
+
+double sleep_distance(const SceneParams& scene)
+{
+  const bool may_sleep = scene.plan == "auto" && scene.solver.method == automatic;
+  return may_sleep ? share_of_sleep * scene.solver.tolerance : 0.0;
+}
+
+PlanLine sleep_line(const SceneParams& scene)
+{
+  if (scene.plan != "auto")
+  {
+    return { sleep_part, false, "plan is " + scene.plan };
+  }
+  if (scene.solver.method != automatic)
+  {
+    return { sleep_part, false, "solver.method is " + scene.solver.method + ", not auto" };
+  }
+  return { sleep_part, true,
+           "no steps while the sheet is at rest, within " + format_number(sleep_distance(scene)) +
+               " m, a quarter of the tolerance" };
+}
+
 Planned planned_for(const SceneParams& scene, const SceneStart& start)
 {
   if (scene.solver.method != automatic)
@@ -214,6 +243,8 @@ Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneSta
   plan.scene.solver.iterations = plan.choice.iterations;
   plan.keeps_within_limit = scene.solver.method == automatic;
   plan.start = start.state;
+  plan.start_is_settled = start.is_settled;
+  plan.sleep_distance = sleep_distance(scene);
   plan.lines = {
     spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),
     spring_line(scene.sheet, SpringKind::shear, scene.sheet.shear),
@@ -226,6 +257,7 @@ Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneSta
     pin_line(pins_of(scene.pins, model, model.rest_positions)),
     { start_part, true, start.description },
     { method_part, true, planned.reason },
+    sleep_line(scene),
   };
   for (PlanLine& line : plan.lines)
   {
@@ -252,6 +284,8 @@ SimulationSetup setup_of(const Plan& plan)
   setup.keeps_within_limit = plan.keeps_within_limit;
   setup.threads = scene.solver.threads;
   setup.start = plan.start;
+  setup.start_is_settled = plan.start_is_settled;
+  setup.sleep_distance = plan.sleep_distance;
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
   return setup;
 }
@@ -312,7 +346,7 @@ Plan make_plan(const SceneParams& scene, const Choice& choice)
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
-  SceneStart start{ running.start, {} };
+  SceneStart start{ running.start, {}, false };
   for (const PlanLine& line : running.lines)
   {
     start.description = line.part == start_part ? line.reason : start.description;
@@ -333,7 +367,7 @@ Plan live_plan(const Plan& running, const SceneParams& scene)
 std::string described_grid(const Plan& plan)
 {
   StepCosts costs(StepCosts::usual_path());
-  return grid_report({ plan.asked, { plan.start, {} } }, plan.choice, costs);
+  return grid_report({ plan.asked, { plan.start, {}, plan.start_is_settled } }, plan.choice, costs);
 }
 
 Simulation build_simulation(const Plan& plan)
@@ -408,6 +442,10 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
   for (const PlanLine& line : plan.lines)
   {
     lines.push_back(line.part + ": " + (line.kept ? "kept, " : "left out, ") + line.reason);
+    if (line.part == sleep_part && simulation.asleep_since())
+    {
+      lines.back() += "; asleep since " + format_number(*simulation.asleep_since()) + " s";
+    }
   }
   lines.push_back("threads: " + described_threads(simulation));
   lines.push_back("time step: " + described_step(plan, simulation, stability_limit));

@@ -85,7 +85,7 @@ TEST(Plan, HasALineForEveryPartOnceAndInOrder)
 {
   const std::vector<std::string> parts{
     "structural springs", "shear springs", "flex springs", "internal damping", "gravity", "viscous damping", "wind",
-    "strain limit",       "pins",          "start",        "method",           "threads", "time step"
+    "strain limit",       "pins",          "start",        "method",           "sleep",   "threads",         "time step"
   };
   const std::vector<std::string> lines = lines_of(four_by_five);
   ASSERT_EQ(lines.size(), parts.size());

@@ -29,6 +29,8 @@ struct Plan
   Choice choice;
   bool keeps_within_limit = false;  ///< the step was chosen, and is shortened where the stability limit asks for it
   ClothState start;                 ///< the sheet at time 0
+  bool start_is_settled = false;
+  double sleep_distance = 0.0;  ///< m, see SimulationSetup
   std::vector<PlanLine> lines;
 };
 
