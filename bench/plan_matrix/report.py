@@ -9,8 +9,8 @@ MOST_LISTED = 12
 
 HOW = """\
 Errors are RMS over all nodes and eight times of one simulated second against the motion of the full model. Costs are
-wall time in lengths of a yardstick that was measured beside every run; a plan and the best of the search were timed in
-turn. The development half was looked at while the planner was built, the held-out half was not."""
+processor time in lengths of a yardstick that was measured beside every run; a plan and the best of the search were timed
+in turn. The development half was looked at while the planner was built, the held-out half was not."""
 
 
 def write(path, halves):
