@@ -77,12 +77,17 @@ void StrainLimit::find_reach(const ClothModel& model, const Pins& pins, const Ve
   }
 }
 
+double StrainLimit::max_strain_for(const ClothModel& model, const Pins& pins, const Vectors& positions)
+{
+  find_reach(model, pins, positions);
+  return std::max(properties_.max_strain, reach_.strain * room_of_reach);
+}
+
 StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state,
                                        Vectors* impulses)
 {
   pins.find_inverse_masses(model.masses, inverse_masses_);
-  find_reach(model, pins, state.positions);
-  const double max_strain = std::max(properties_.max_strain, reach_.strain * room_of_reach);
+  const double max_strain = max_strain_for(model, pins, state.positions);
   corrected_.topRows(model.nodes()) = state.positions;
   Vectors shifts = Vectors::Zero(impulses != nullptr ? model.nodes() : 0, 3);
   const Report report = shortening_->shorten(inverse_masses_, max_strain, properties_.sweeps, corrected_,

@@ -12,6 +12,7 @@
 #include "cloth_sim/model/spring_rows.h"
 #include "cloth_sim/model/wide_vectors.h"
 
+#include "../model/aligned_vectors.h"
 #include "../model/spring_layout.h"
 
 namespace cloth
@@ -278,36 +279,6 @@ private:
   /// Nodes are marked as moved by so many.
   static constexpr int mark_size = std::is_same_v<Scalar, float> ? lanes_of<float> : spring_row_size;
 
-  /// Vectors that begin where a vector register does.
-  class Rows
-  {
-  public:
-    void resize(int n)
-    {
-      rows_ = (n + row_padding - 1) / row_padding * row_padding;
-      values_.assign(static_cast<size_t>(3 * rows_ + row_padding), Scalar(0));
-    }
-    Columns<Scalar> from(int row) const
-    {
-      constexpr std::uintptr_t bytes = 64;
-      const auto address = reinterpret_cast<std::uintptr_t>(values_.data());
-      const std::uintptr_t skipped = (bytes - address % bytes) % bytes / sizeof(Scalar);
-      Scalar* const begin = const_cast<Scalar*>(values_.data()) + skipped + row;
-      return { begin, begin + rows_, begin + 2 * rows_ };
-    }
-    void multiply(int row, int n, Scalar factor)
-    {
-      for (Scalar* const column : from(row))
-      {
-        std::transform(column, column + n, column, [factor](Scalar value) { return factor * value; });
-      }
-    }
-
-  private:
-    int rows_ = 0;
-    std::vector<Scalar> values_;
-  };
-
   struct Run
   {
     SpringRun springs;
@@ -319,7 +290,7 @@ private:
   struct Tethered
   {
     Tether<Scalar> tether;
-    Rows tensions;
+    AlignedVectors<Scalar> tensions;
     std::vector<char> is_taut;  ///< for each mark_size nodes
   };
 
@@ -367,6 +338,13 @@ private:
   void relax_taut(bool backwards, const Scalar* inverse_masses, const Columns<Scalar>& positions);
   template <bool fused>
   void relax_run(Run& run, const Scalar* inverse_masses, const Columns<Scalar>& positions);
+  static void multiply(const Columns<Scalar>& columns, int n, Scalar factor)
+  {
+    for (Scalar* const column : columns)
+    {
+      std::transform(column, column + n, column, [factor](Scalar value) { return factor * value; });
+    }
+  }
   void scale_tensions(Scalar factor);
   void mark_moved(int node, int n);
   long last_move(int node, int n) const;
@@ -378,8 +356,8 @@ private:
   double max_strain_ = 0.0;  ///< of the step
   bool reached_ = true;
   double margin_ = StrainLimit::least_margin;
-  Rows tensions_;               ///< one for each spring, kg m
-  Rows shifts_;                 ///< what the tensions of the last step ask for, m
+  AlignedVectors<Scalar> tensions_;               ///< one for each spring, kg m
+  AlignedVectors<Scalar> shifts_;                 ///< what the tensions of the last step ask for, m
   std::vector<long> moved_at_;  ///< for each mark_size nodes
   long now_ = 0;                ///< counts passes
 };
@@ -394,8 +372,8 @@ TensionPasses<Scalar>::TensionPasses(std::vector<SpringBatch> batches, const std
     runs_.push_back({ run, first });
     first += (run.n + lanes_of<Scalar> - 1) / lanes_of<Scalar> * lanes_of<Scalar>;
   }
-  tensions_.resize(first);
-  shifts_.resize(nodes + row_padding);
+  tensions_.set_zero(first);
+  shifts_.set_zero(nodes);
 }
 
 template <typename Scalar>
@@ -406,7 +384,7 @@ void TensionPasses<Scalar>::use_tethers(std::vector<Tether<Scalar>> tethers)
   {
     tether.lengths.resize(static_cast<size_t>(nodes_ + row_padding), Scalar(0));
     tethers_.push_back({ std::move(tether), {}, std::vector<char>(moved_at_.size(), 0) });
-    tethers_.back().tensions.resize(nodes_ + row_padding);
+    tethers_.back().tensions.set_zero(nodes_);
   }
 }
 
@@ -430,7 +408,7 @@ void TensionPasses<Scalar>::go_on_from(const TensionPasses& before)
     other = std::next(found);
     run.is_taut = found->is_taut;
     const Columns<Scalar> tensions = tensions_.from(run.first);
-    const Columns<Scalar> theirs = before.tensions_.from(found->first);
+    const Columns<const Scalar> theirs = before.tensions_.from(found->first);
     for (size_t d = 0; d < 3; ++d)
     {
       std::copy_n(theirs[d], run.springs.n, tensions[d]);
@@ -520,7 +498,7 @@ bool TensionPasses<Scalar>::pull_as_before(const Scalar* inverse_masses, const C
 template <typename Scalar>
 double TensionPasses<Scalar>::factor_of(const Scalar* inverse_masses, DualParabola<Scalar>& parabola) const
 {
-  const Columns<Scalar> shifts = shifts_.from(0);
+  const Columns<const Scalar> shifts = shifts_.from(0);
   const Scalar* const x = shifts[0];
   const Scalar* const y = shifts[1];
   const Scalar* const z = shifts[2];
@@ -555,7 +533,7 @@ void TensionPasses<Scalar>::scale_tensions(Scalar factor)
   for_each_tethered_block([&](Tethered& tethered, size_t block, int node) {
     if (tethered.is_taut[block])
     {
-      tethered.tensions.multiply(node, last_of(node), factor);
+      multiply(tethered.tensions.from(node), last_of(node), factor);
       tethered.is_taut[block] = factor > Scalar(0) ? 1 : 0;
     }
   });
@@ -563,7 +541,7 @@ void TensionPasses<Scalar>::scale_tensions(Scalar factor)
   {
     if (run.is_taut)
     {
-      tensions_.multiply(run.first, run.springs.n, factor);
+      multiply(tensions_.from(run.first), run.springs.n, factor);
       run.is_taut = factor > Scalar(0);
     }
   }
@@ -668,7 +646,7 @@ void TensionPasses<Scalar>::add_tensions_to(const Columns<Scalar>& shifts) const
   }
   for (const Run& run : runs_)
   {
-    const Columns<Scalar> tensions = tensions_.from(run.first);
+    const Columns<const Scalar> tensions = tensions_.from(run.first);
     for (int k = 0; run.is_taut && k < run.springs.n; ++k)
     {
       const int node = run.springs.node + k;

@@ -181,6 +181,10 @@ const MethodRow xpbd{ "xpbd",
                       0,
                       "too soft where the substeps are too long, and not alike to both sides: it depends on the order",
                       [](const MethodSettings& settings) -> std::unique_ptr<Method> {
+                        if (settings.precision == Precision::mixed)
+                        {
+                          return make_mixed_xpbd(settings);
+                        }
                         return std::make_unique<ExtendedPositionBasedDynamics>(settings.iterations,
                                                                                settings.compliance);
                       } };
