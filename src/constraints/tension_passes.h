@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "cloth_sim/constraints/strain_limit.h"
@@ -46,6 +46,10 @@ struct DualParabola
 /// Of a spring, over that of its ends' masses: only the choice of the first guess knows of it.
 inline constexpr double compliance_of_guess = 1e-4;
 
+/// An integer as wide as the numbers: loops that count in it vectorise.
+template <typename Scalar>
+using IntegerLike = std::conditional_t<std::is_same_v<Scalar, float>, std::int32_t, std::int64_t>;
+
 /// Gives the chosen springs the tension that is right if all others' are, and moves their ends by the change. Returns
 /// whether any of them is taut.
 template <bool fused, typename Scalar, typename IsChosen>
@@ -53,7 +57,7 @@ bool relax(const SpringRow<Scalar>& row, const Columns<Scalar>& tensions, Scalar
 {
   RowChanges<Scalar> changes;
   const Scalar squared = longest * longest;
-  std::conditional_t<std::is_same_v<Scalar, float>, std::int32_t, std::int64_t> taut = 0;
+  IntegerLike<Scalar> taut = 0;
   const Scalar* const w_i = row.w_i;
   const Scalar* const w_j = row.w_j;
   const Scalar* const x_i = row.i[0];
@@ -104,7 +108,7 @@ bool relax_tethers(const Scalar* inverse_masses, const Columns<Scalar>& nodes, c
   Scalar* const p_x = tensions[0];
   Scalar* const p_y = tensions[1];
   Scalar* const p_z = tensions[2];
-  std::conditional_t<std::is_same_v<Scalar, float>, std::int32_t, std::int64_t> taut = 0;
+  IntegerLike<Scalar> taut = 0;
 #pragma GCC ivdep
   for (int k = 0; k < n; ++k)
   {
@@ -195,10 +199,9 @@ void add_tether_shifts(const Scalar* inverse_masses, const Columns<Scalar>& node
   }
 }
 
-/// How long the springs between two stretches of n nodes are, given the squares of the lengths from which on one that
-/// is not held at both ends is taut, and too long.
+/// Whether any of the springs that are not held at both ends is longer than the length of this square.
 template <typename Scalar>
-SpringLengths lengths_of(const SpringRow<Scalar>& row, Scalar taut, Scalar too_long)
+bool has_longer(const SpringRow<Scalar>& row, Scalar longest)
 {
   const Scalar* const w_i = row.w_i;
   const Scalar* const w_j = row.w_j;
@@ -210,19 +213,15 @@ SpringLengths lengths_of(const SpringRow<Scalar>& row, Scalar taut, Scalar too_l
   const Scalar* const z_j = row.j[2];
   const int n = row.n;
   const int padded = row.padded();
-  std::conditional_t<std::is_same_v<Scalar, float>, std::int32_t, std::int64_t> any_taut = 0;
-  decltype(any_taut) any_too_long = 0;
+  IntegerLike<Scalar> any = 0;
   for (int k = 0; k < padded; ++k)
   {
     const Scalar x = x_j[k] - x_i[k];
     const Scalar y = y_j[k] - y_i[k];
     const Scalar z = z_j[k] - z_i[k];
-    const Scalar square = x * x + y * y + z * z;
-    const bool counts = w_i[k] + w_j[k] > Scalar(0) && k < n;
-    any_taut |= counts && square > taut ? 1 : 0;
-    any_too_long |= counts && square > too_long ? 1 : 0;
+    any |= x * x + y * y + z * z > longest && w_i[k] + w_j[k] > Scalar(0) && k < n ? 1 : 0;
   }
-  return any_too_long != 0 ? SpringLengths::too_long : any_taut != 0 ? SpringLengths::taut : SpringLengths::slack;
+  return any != 0;
 }
 
 /// Whether any of n tethers is taut.
@@ -236,7 +235,7 @@ bool has_taut_tether(const Columns<Scalar>& nodes, const std::array<Scalar, 3>& 
   const Scalar* const n_x = nodes[0];
   const Scalar* const n_y = nodes[1];
   const Scalar* const n_z = nodes[2];
-  std::conditional_t<std::is_same_v<Scalar, float>, std::int32_t, std::int64_t> taut = 0;
+  IntegerLike<Scalar> taut = 0;
   for (int k = 0; k < n; ++k)
   {
     const Scalar longest = stretch * lengths[k];
@@ -334,7 +333,8 @@ private:
   /// Pulls with the tensions of the last step times the factor that is best for them. False: they are of no use.
   bool pull_as_before(const Scalar* inverse_masses, const Columns<Scalar>& positions);
   double factor_of(const Scalar* inverse_masses, DualParabola<Scalar>& parabola) const;
-  SpringLengths find_taut(const Scalar* inverse_masses, const Columns<Scalar>& positions);
+  /// Tethers that were slack at a step's begin are left out of it.
+  SpringLengths find_taut(bool is_first, const Scalar* inverse_masses, const Columns<Scalar>& positions);
   void relax_taut(bool backwards, const Scalar* inverse_masses, const Columns<Scalar>& positions);
   template <bool fused>
   void relax_run(Run& run, const Scalar* inverse_masses, const Columns<Scalar>& positions);
@@ -425,7 +425,7 @@ StrainLimit::Report TensionPasses<Scalar>::shorten(const Scalar* inverse_masses,
   std::fill(moved_at_.begin(), moved_at_.end(), now_);
   StrainLimit::Report report;
   report.moved = pull_as_before(inverse_masses, positions);
-  SpringLengths longest = find_taut(inverse_masses, positions);
+  SpringLengths longest = find_taut(true, inverse_masses, positions);
   for (bool goes_on = report.moved || longest != SpringLengths::slack; goes_on;
        goes_on = longest == SpringLengths::too_long)
   {
@@ -437,7 +437,7 @@ StrainLimit::Report TensionPasses<Scalar>::shorten(const Scalar* inverse_masses,
     relax_taut(report.sweeps % 2 == 1, inverse_masses, positions);
     report.moved = true;
     ++report.sweeps;
-    longest = find_taut(inverse_masses, positions);
+    longest = find_taut(false, inverse_masses, positions);
   }
   reached_ = report.reached;
   margin_ = std::clamp(margin_ * (report.sweeps > few ? margin_growth : margin_decay), StrainLimit::least_margin,
@@ -548,12 +548,13 @@ void TensionPasses<Scalar>::scale_tensions(Scalar factor)
 }
 
 template <typename Scalar>
-SpringLengths TensionPasses<Scalar>::find_taut(const Scalar* inverse_masses, const Columns<Scalar>& positions)
+SpringLengths TensionPasses<Scalar>::find_taut(bool is_first, const Scalar* inverse_masses,
+                                               const Columns<Scalar>& positions)
 {
   SpringLengths longest = SpringLengths::slack;
   in_widest_vectors([&](auto) {
     for_each_tethered_block([&](Tethered& tethered, size_t block, int node) {
-      if (!tethered.is_taut[block] &&
+      if (is_first && !tethered.is_taut[block] &&
           has_taut_tether(from(positions, node), vector_at(positions, tethered.tether.anchor),
                           tethered.tether.lengths.data() + node, stretch(), last_of(node)))
       {
@@ -571,17 +572,15 @@ SpringLengths TensionPasses<Scalar>::find_taut(const Scalar* inverse_masses, con
       const Scalar taut = target_length(run);
       const auto too_long = Scalar(batches_[springs.batch].rest_length *
                                    (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance)));
-      const SpringLengths found =
-          lengths_of(row_of(run, inverse_masses, positions), taut * taut, too_long * too_long);
-      longest = std::max(longest, found);
-      if (found == SpringLengths::slack)
+      const SpringRow<Scalar> row = row_of(run, inverse_masses, positions);
+      if (!has_longer(row, taut * taut))
       {
         run.found_slack = now_;
+        continue;
       }
-      else
-      {
-        run.is_taut = true;
-      }
+      run.is_taut = true;
+      longest = std::max(longest,
+                         has_longer(row, too_long * too_long) ? SpringLengths::too_long : SpringLengths::taut);
     }
   });
   return longest;

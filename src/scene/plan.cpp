@@ -124,7 +124,8 @@ std::string settings_of(const SolverParams& solver)
   {
     return "; " + counted(static_cast<size_t>(solver.iterations), "substep") +
            " a step, the springs' compliance times " + format_number(solver.compliance) +
-           (solver.compliance == 0.0 ? ": position-based dynamics" : "");
+           (solver.compliance == 0.0 ? ": position-based dynamics" : "") +
+           (solver.precision == Precision::mixed ? ", in mixed precision" : "");
   }
   return "";
 }
@@ -148,6 +149,16 @@ void require_fitting_compliance(const SolverParams& solver)
   {
     throw SceneError("solver.compliance: " + format_number(solver.compliance) +
                      ", but only xpbd has a compliance of its own; 1 is allowed with solver.method " + solver.method);
+  }
+}
+
+void require_fitting_precision(const SolverParams& solver)
+{
+  if (solver.precision == Precision::mixed && solver.method != "xpbd")
+  {
+    throw SceneError("solver.precision: mixed, but only xpbd has a mixed precision; double is allowed with "
+                     "solver.method " +
+                     solver.method);
   }
 }
 
@@ -189,7 +200,8 @@ SimulationSetup setup_of(const Plan& plan)
   setup.air = scene.air;
   setup.strain_limit = scene.strain_limit;
   setup.method = plan.method;
-  setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance };
+  setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance,
+                            scene.solver.precision };
   setup.time_step = scene.solver.time_step;
   setup.threads = scene.solver.threads;
   setup.start = plan.start;
@@ -228,6 +240,7 @@ void require_forces_to_reckon_with(const Simulation& simulation)
 Plan make_plan(const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
   const ClothModel model = make_sheet(scene.sheet);
   return plan_with(scene, model, scene_start(scene, model));
 }
@@ -235,12 +248,14 @@ Plan make_plan(const SceneParams& scene)
 Plan make_plan(const SceneParams& scene, const SceneStart& start)
 {
   require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
   return plan_with(scene, make_sheet(scene.sheet), start);
 }
 
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
   SceneStart start{ running.start, {} };
   for (const PlanLine& line : running.lines)
   {

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdlib>
-#include <type_traits>
 
 namespace cloth
 {
@@ -49,7 +48,7 @@ struct SpringRow
   int padded() const
   {
     constexpr int lanes = lanes_of<Scalar>;
-    return std::is_same_v<Scalar, float> ? lanes : (n + lanes - 1) / lanes * lanes;
+    return (n + lanes - 1) / lanes * lanes;
   }
 
   const Scalar* w_i;  ///< inverse masses of the first ends
