@@ -4,8 +4,8 @@
 //
 // prints for 64 x 64 and 128 x 128 nodes how long a frame of 1/60 s takes each, as a median over the frames, and how
 // far the worst spring of each is stretched. Bullet runs as it is usually run: a step a frame, 10 and 40 iterations.
-// Ours runs xpbd in small steps, one pass over the springs each, with the strain limit at 0.05, in doubles (a step each)
-// and in mixed precision (a step a frame, in substeps).
+// Ours runs xpbd in small steps, one pass over the springs each, with the strain limit at 0.05, in doubles (a step
+// each) and in mixed precision (a step a frame, in substeps).
 
 #include <algorithm>
 #include <chrono>

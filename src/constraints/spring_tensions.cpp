@@ -6,8 +6,7 @@ namespace cloth
 {
 
 SpringTensions::SpringTensions(const ClothModel& model)
-  : lengths_(model)
-  , passes_(limited_batches(model), runs_by_rows(limited_batches(model), model.rows), model.nodes())
+  : lengths_(model), passes_(limited_batches(model), runs_by_rows(limited_batches(model), model.rows), model.nodes())
 {
 }
 
@@ -40,8 +39,7 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
                                             Vectors& positions, Vectors* shifts)
 {
   find_held(inverse_masses);
-  const StrainLimit::Report report =
-      passes_.shorten(inverse_masses.data(), max_strain, passes, columns_of(positions));
+  const StrainLimit::Report report = passes_.shorten(inverse_masses.data(), max_strain, passes, columns_of(positions));
   if (shifts != nullptr)
   {
     passes_.add_tensions_to(columns_of(*shifts));

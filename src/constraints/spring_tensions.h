@@ -28,8 +28,8 @@ namespace cloth
 /// by then, whatever the grid. As vectors they keep the guess stable: it is a correction that was right, not a force
 /// along springs that have turned.
 ///
-/// Where the sheet hangs from a few nodes, the tethers from there to all others (Kim, Chentanez and Mueller-Fischer, "Long
-/// range attachments", 2012) are springs of this kind too, with tensions of their own: they change nothing of the
+/// Where the sheet hangs from a few nodes, the tethers from there to all others (Kim, Chentanez and Mueller-Fischer,
+/// "Long range attachments", 2012) are springs of this kind too, with tensions of their own: they change nothing of the
 /// correction, and bring it about in fewer passes.
 class SpringTensions : public Shortening
 {

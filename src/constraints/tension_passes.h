@@ -356,10 +356,10 @@ private:
   double max_strain_ = 0.0;  ///< of the step
   bool reached_ = true;
   double margin_ = StrainLimit::least_margin;
-  AlignedVectors<Scalar> tensions_;               ///< one for each spring, kg m
-  AlignedVectors<Scalar> shifts_;                 ///< what the tensions of the last step ask for, m
-  std::vector<long> moved_at_;  ///< for each mark_size nodes
-  long now_ = 0;                ///< counts passes
+  AlignedVectors<Scalar> tensions_;  ///< one for each spring, kg m
+  AlignedVectors<Scalar> shifts_;    ///< what the tensions of the last step ask for, m
+  std::vector<long> moved_at_;       ///< for each mark_size nodes
+  long now_ = 0;                     ///< counts passes
 };
 
 template <typename Scalar>
@@ -570,8 +570,8 @@ SpringLengths TensionPasses<Scalar>::find_taut(bool is_first, const Scalar* inve
         continue;
       }
       const Scalar taut = target_length(run);
-      const auto too_long = Scalar(batches_[springs.batch].rest_length *
-                                   (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance)));
+      const auto too_long =
+          Scalar(batches_[springs.batch].rest_length * (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance)));
       const SpringRow<Scalar> row = row_of(run, inverse_masses, positions);
       if (!has_longer(row, taut * taut))
       {
@@ -579,8 +579,7 @@ SpringLengths TensionPasses<Scalar>::find_taut(bool is_first, const Scalar* inve
         continue;
       }
       run.is_taut = true;
-      longest = std::max(longest,
-                         has_longer(row, too_long * too_long) ? SpringLengths::too_long : SpringLengths::taut);
+      longest = std::max(longest, has_longer(row, too_long * too_long) ? SpringLengths::too_long : SpringLengths::taut);
     }
   });
   return longest;
@@ -595,10 +594,9 @@ void TensionPasses<Scalar>::relax_taut(bool backwards, const Scalar* inverse_mas
     for_each_tethered_block([&](Tethered& tethered, size_t block, int node) {
       if (tethered.is_taut[block])
       {
-        const bool is_taut = relax_tethers<fused>(inverse_masses + node, from(positions, node),
-                                                  vector_at(positions, tethered.tether.anchor),
-                                                  tethered.tether.lengths.data() + node, stretch(),
-                                                  tethered.tensions.from(node), last_of(node));
+        const bool is_taut = relax_tethers<fused>(
+            inverse_masses + node, from(positions, node), vector_at(positions, tethered.tether.anchor),
+            tethered.tether.lengths.data() + node, stretch(), tethered.tensions.from(node), last_of(node));
         tethered.is_taut[block] = is_taut ? 1 : 0;
         mark_moved(node, last_of(node));
       }

@@ -25,8 +25,8 @@ public:
     return nodes_;
   }
 
-  /// One for each held node where these are few: a pass visits every node for each of them. In arrays of `size` numbers,
-  /// number_of(node) being a node's.
+  /// One for each held node where these are few: a pass visits every node for each of them. In arrays of `size`
+  /// numbers, number_of(node) being a node's.
   template <typename Scalar, typename NumberOf>
   std::vector<Tether<Scalar>> tethers(const std::vector<int>& held, int size, NumberOf&& number_of) const
   {

@@ -204,9 +204,8 @@ private:
   {
     Sheet& sheet = *sheet_;
     const auto step = static_cast<float>(h);
-    for_each_column(sheet.velocities.singles(), sheet.accelerations.singles(), [=](float* v, const float* a, int i) {
-      v[i] += step * a[i];
-    });
+    for_each_column(sheet.velocities.singles(), sheet.accelerations.singles(),
+                    [=](float* v, const float* a, int i) { v[i] += step * a[i]; });
     if (dynamics.air().is_coupled(dynamics.model()))
     {
       bring_up_to_date(state);
@@ -215,9 +214,8 @@ private:
     }
     const float* const part = sheet.inertias.from(0)[1];
     const float* const w = sheet.inverse_masses();
-    for_each_column(sheet.ways, sheet.velocities.singles(), [=](float* way, const float* v, int i) {
-      way[i] = w[i] > 0.0F ? step * (part[i] * v[i]) : 0.0F;
-    });
+    for_each_column(sheet.ways, sheet.velocities.singles(),
+                    [=](float* way, const float* v, int i) { way[i] = w[i] > 0.0F ? step * (part[i] * v[i]) : 0.0F; });
     sheet.before = sheet.positions.singles();
   }
 
@@ -288,8 +286,8 @@ private:
         const SpringRow<float> ways(w, all_ways, run.node, run.offset, run.n);
         const SpringRow<float> before(w, all_before, run.node, run.offset, run.n);
         RowChanges<float> changes;
-        find_changes<arithmetic.has_fused_multiply_add>(ways, before, gains_[run.batch], [](int) { return true; },
-                                                        changes);
+        find_changes<arithmetic.has_fused_multiply_add>(
+            ways, before, gains_[run.batch], [](int) { return true; }, changes);
         move_ends(ways, changes);
         if (records())
         {
@@ -305,9 +303,8 @@ private:
     Sheet& sheet = *sheet_;
     const auto rate = static_cast<float>(1.0 / h);
     const float* const w = sheet.inverse_masses();
-    for_each_column(sheet.velocities.singles(), sheet.ways, [=](float* v, const float* way, int i) {
-      v[i] = w[i] > 0.0F ? rate * way[i] : v[i];
-    });
+    for_each_column(sheet.velocities.singles(), sheet.ways,
+                    [=](float* v, const float* way, int i) { v[i] = w[i] > 0.0F ? rate * way[i] : v[i]; });
     for_each_column(sheet.positions.singles(), sheet.ways, [](float* x, const float* way, int i) { x[i] += way[i]; });
   }
 
@@ -316,14 +313,13 @@ private:
   {
     Sheet& sheet = *sheet_;
     sheet.before = sheet.positions.singles();
-    const StrainLimit::Report report = sheet.limit.shorten(sheet.inverse_masses(), max_strain_, passes_,
-                                                           sheet.positions.singles().from(0));
+    const StrainLimit::Report report =
+        sheet.limit.shorten(sheet.inverse_masses(), max_strain_, passes_, sheet.positions.singles().from(0));
     if (report.moved)
     {
       const auto rate = static_cast<float>(1.0 / h);
-      for_each_column(sheet.before, sheet.positions.singles(), [](float* x, const float* after, int i) {
-        x[i] = after[i] - x[i];
-      });
+      for_each_column(sheet.before, sheet.positions.singles(),
+                      [](float* x, const float* after, int i) { x[i] = after[i] - x[i]; });
       for_each_column(sheet.velocities.singles(), sheet.before,
                       [=](float* v, const float* way, int i) { v[i] += rate * way[i]; });
     }

@@ -21,8 +21,8 @@ struct Gains
 template <typename Scalar>
 Gains<Scalar> gains_of(const SpringBatch& batch, double compliance, double h)
 {
-  return { Scalar(compliance * batch.damping / (batch.stiffness * h)),
-           Scalar(compliance / (batch.stiffness * h * h)), Scalar(batch.rest_length) };
+  return { Scalar(compliance * batch.damping / (batch.stiffness * h)), Scalar(compliance / (batch.stiffness * h * h)),
+           Scalar(batch.rest_length) };
 }
 
 /// The chosen springs' changes, from the ends' ways since the step's begin and the positions then.

@@ -156,9 +156,10 @@ void require_fitting_precision(const SolverParams& solver)
 {
   if (solver.precision == Precision::mixed && solver.method != "xpbd")
   {
-    throw SceneError("solver.precision: mixed, but only xpbd has a mixed precision; double is allowed with "
-                     "solver.method " +
-                     solver.method);
+    throw SceneError(
+        "solver.precision: mixed, but only xpbd has a mixed precision; double is allowed with "
+        "solver.method " +
+        solver.method);
   }
 }
 

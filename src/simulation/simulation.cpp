@@ -94,9 +94,8 @@ void Simulation::step(double h)
   const double begin = state_.time;
   method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
   const bool has_tensions = strain_limit_.active() && strain_limit_.properties().solver == LimitSolver::tensions;
-  method_->limit_strain(
-      has_tensions ? strain_limit_.max_strain_for(model(), pins(), state_.positions) : 0.0,
-      strain_limit_.properties().sweeps);
+  method_->limit_strain(has_tensions ? strain_limit_.max_strain_for(model(), pins(), state_.positions) : 0.0,
+                        strain_limit_.properties().sweeps);
   const StepReport report = method_->step(dynamics_, h, state_);
   last_step_ = state_.time - begin;
   if (strain_limit_.active())

@@ -107,7 +107,8 @@ TEST(MixedPrecision, KeepsTheMomentumOfWhatIsFree)
   setup.strain_limit = { 0.02, 1000, LimitSolver::tensions };
   for (int node = 0; node < setup.model.nodes(); ++node)
   {
-    setup.start.velocities.row(node) << 0.3, std::sin(0.7 * node), 4.0 * setup.start.positions(node, 0);
+    const double x = setup.start.positions(node, 0);
+    setup.start.velocities.row(node) << 0.3 + 3.0 * x, std::sin(0.7 * node), 4.0 * x;
   }
   Simulation simulation(std::move(setup));
   const auto momentum = [&]() -> Eigen::RowVector3d {
@@ -116,7 +117,7 @@ TEST(MixedPrecision, KeepsTheMomentumOfWhatIsFree)
   const Eigen::RowVector3d before = momentum();
   ASSERT_TRUE(simulation.advance_to(0.5));
   EXPECT_GT(simulation.counters().limit_sweeps, 0U);
-  EXPECT_LT((momentum() - before).norm(), 1e-5 * before.norm());
+  EXPECT_LT((momentum() - before).norm(), 5e-5 * before.norm());
 }
 
 TEST(MixedPrecision, TellsWhatTheSheetDoesToItsPins)

@@ -31,8 +31,7 @@ TEST_P(LaneLayoutOf, HasEverySpringOnceAndNoNodeTwiceInARun)
   std::vector<std::multiset<Spring>> expected(model.springs.size());
   for (size_t b = 0; b < model.springs.size(); ++b)
   {
-    for_each_spring(model.springs[b],
-                    [&](int i, int j) { expected[b].insert(std::minmax(layout[i], layout[j])); });
+    for_each_spring(model.springs[b], [&](int i, int j) { expected[b].insert(std::minmax(layout[i], layout[j])); });
   }
   std::vector<std::multiset<Spring>> found(model.springs.size());
   for (const SpringRun& run : layout.runs(model.springs, 3))

@@ -52,8 +52,8 @@ public:
   {
   }
 
-  /// From now on a method that corrects the strain after each of its substeps keeps it below max_strain (0: no limit) in
-  /// at most so many passes. Others leave that to whoever calls `step`.
+  /// From now on a method that corrects the strain after each of its substeps keeps it below max_strain (0: no limit)
+  /// in at most so many passes. Others leave that to whoever calls `step`.
   virtual void limit_strain(double /*max_strain*/, int /*passes*/)
   {
   }

@@ -17,7 +17,7 @@ struct Choice
   int iterations = 10;                                      ///< a step, of a method that iterates
   double error = std::numeric_limits<double>::quiet_NaN();  ///< estimated, m: root mean square over all nodes and over
                                                             ///< 1 s; not a number: not asked for
-  double cost = std::numeric_limits<double>::quiet_NaN();  ///< estimated, s of work for a simulated second
+  double cost = std::numeric_limits<double>::quiet_NaN();   ///< estimated, s of work for a simulated second
 };
 
 }  // namespace cloth
