@@ -35,6 +35,7 @@ struct FallenSheet
     scene.sheet.cols = nodes_a_side;
     scene.start.initial_stretch = { 0.9, 1.0 };
     scene.start.ripple = 0.02;
+    scene.plan = "full";  // a tick of a sheet that sleeps is none
     return scene;
   }
 

@@ -59,13 +59,22 @@ cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp
   test/simulation/failure_test.cpp
+  test/simulation/part_calls_test.cpp
   test/simulation/reactions_test.cpp
   test/simulation/settle_test.cpp
   test/simulation/simulation_test.cpp
+  test/simulation/sleep_test.cpp
   test/simulation/statics_test.cpp
 )
+cloth_add_test(planning
+  test/planning/planner_test.cpp
+  test/planning/started_scene_test.cpp
+  test/planning/step_costs_test.cpp
+)
+target_include_directories(test_planning PRIVATE src/planning)
 cloth_add_test(scene
   test/scene/catenary_test.cpp
+  test/scene/choice_test.cpp
   test/scene/parameter_page_test.cpp
   test/scene/parameter_table_test.cpp
   test/scene/pin_selection_test.cpp

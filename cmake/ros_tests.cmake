@@ -41,7 +41,7 @@ add_library(cloth_rostest STATIC EXCLUDE_FROM_ALL
 target_link_libraries(cloth_rostest PUBLIC cloth_ros ${rosbag_LIBRARIES} ${GTEST_LIBRARIES})
 
 foreach(name
-    bag clock divergence health lost_master master_clock nodelet pin_handles reload replay requests robustness
+    bag clock divergence health lost_master master_clock nodelet pin_handles reload replay requests robustness sleep
     start_bag start_up streams tf_pins time tuning two_cloths wind wrenches)
   add_rostest_gtest(ros_${name}_test test/ros/${name}.test
     test/ros/${name}_rostest.cpp

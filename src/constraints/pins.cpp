@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/part_calls.h"
+
 namespace cloth
 {
 namespace
@@ -37,6 +39,16 @@ bool is_under_way(const Carry& carry, double time)
 {
   const double duration = carry.end - carry.start;
   return duration > 0.0 && time >= carry.start && time <= carry.end + 1e-6 * duration;
+}
+
+Eigen::Vector3d displacement_of(const Pin& pin, double time)
+{
+  if (!pin.moves_at(time))
+  {
+    return pin.carry.to;
+  }
+  ++part_calls()[Part::pin_motions];
+  return pin.oscillation.displacement(time) + pin.carry.displacement(time);
 }
 
 /// Where node i of a carried pin was held, as seen from its pivot, turned.
@@ -109,6 +121,12 @@ Eigen::Vector3d Pin::middle(double time) const
 double Pin::reach() const
 {
   return std::sqrt((held.rowwise() - held.colwise().mean()).rowwise().squaredNorm().maxCoeff());
+}
+
+bool Pin::moves_at(double time) const
+{
+  const bool goes_somewhere = carry.from != carry.to || !carry.turn.isZero(0.0);
+  return !oscillation.amplitude.isZero(0.0) || (goes_somewhere && (time < carry.end || is_under_way(carry, time)));
 }
 
 Pins::Pins(int nodes) : held_(static_cast<size_t>(nodes), 0)
@@ -191,7 +209,7 @@ void Pins::impose(double time, Vectors& positions, Vectors& velocities) const
 {
   for (const Pin& pin : pins_)
   {
-    const Eigen::Vector3d displacement = pin.oscillation.displacement(time) + pin.carry.displacement(time);
+    const Eigen::Vector3d displacement = displacement_of(pin, time);
     const bool is_straight = pin.carry.is_straight();
     const Eigen::RowVector3d pivot = (pin.carry.pivot + displacement).transpose();
     const Eigen::Matrix3d rotation = pin.carry.rotation(time);
@@ -213,8 +231,18 @@ void Pins::impose(double time, Vectors& positions, Vectors& velocities) const
 
 void Pins::impose_velocities(double time, Vectors& velocities) const
 {
+  part_calls()[Part::pins] += pins_.empty() ? 0 : 1;
   for (const Pin& pin : pins_)
   {
+    if (!pin.moves_at(time))
+    {
+      for (const int node : pin.nodes)
+      {
+        velocities.row(node).setZero();
+      }
+      continue;
+    }
+    ++part_calls()[Part::pin_motions];
     const Eigen::RowVector3d velocity = (pin.oscillation.velocity(time) + pin.carry.velocity(time)).transpose();
     const Eigen::RowVector3d angular_velocity = pin.carry.angular_velocity(time).transpose();
     const bool turns = !angular_velocity.isZero(0.0);

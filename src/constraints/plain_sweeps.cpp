@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "cloth_sim/model/part_calls.h"
+
 namespace cloth
 {
 namespace
@@ -46,6 +48,8 @@ public:
       const size_t batch = static_cast<size_t>(backwards ? batches - 1 - b : b);
       run(batches_[batch], found_short_at_[batch], backwards);
     }
+    ++part_calls()[Part::strain_watch];
+    part_calls()[Part::strain_limit] += corrected_ ? 1 : 0;
     return corrected_;
   }
 

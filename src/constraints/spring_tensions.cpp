@@ -14,11 +14,22 @@ void SpringTensions::go_on_from(const Shortening& before)
 {
   if (const auto* const other = dynamic_cast<const SpringTensions*>(&before))
   {
+    use_held(other->held_);
     passes_.go_on_from(other->passes_);
   }
 }
 
-void SpringTensions::find_held(const Eigen::VectorXd& inverse_masses)
+void SpringTensions::use_held(const std::vector<int>& held)
+{
+  if (held != held_)
+  {
+    held_ = held;
+    passes_.use_tethers(lengths_.tethers<double>(held_, lengths_.nodes(), [](int node) { return node; }));
+  }
+}
+
+StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
+                                            Vectors& positions, Vectors* shifts)
 {
   std::vector<int> held;
   for (int i = 0; i < lengths_.nodes(); ++i)
@@ -28,17 +39,7 @@ void SpringTensions::find_held(const Eigen::VectorXd& inverse_masses)
       held.push_back(i);
     }
   }
-  if (held != held_)
-  {
-    held_.swap(held);
-    passes_.use_tethers(lengths_.tethers<double>(held_, lengths_.nodes(), [](int node) { return node; }));
-  }
-}
-
-StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
-                                            Vectors& positions, Vectors* shifts)
-{
-  find_held(inverse_masses);
+  use_held(held);
   const StrainLimit::Report report = passes_.shorten(inverse_masses.data(), max_strain, passes, columns_of(positions));
   if (shifts != nullptr)
   {

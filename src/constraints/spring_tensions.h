@@ -41,7 +41,7 @@ public:
   void go_on_from(const Shortening& before) override;
 
 private:
-  void find_held(const Eigen::VectorXd& inverse_masses);
+  void use_held(const std::vector<int>& held);
 
   TetherLengths lengths_;
   TensionPasses<double> passes_;

@@ -57,6 +57,17 @@ void StrainLimit::go_on_from(const StrainLimit& before)
   }
 }
 
+double StrainLimit::strain_in_force() const
+{
+  return std::max(properties_.max_strain, reach_.strain * room_of_reach);
+}
+
+double StrainLimit::held_strain() const
+{
+  const double margin = properties_.solver == LimitSolver::tensions ? least_margin : 0.0;
+  return active() ? (1.0 - margin) * strain_in_force() : 0.0;
+}
+
 /// Looks again only after pins have moved.
 void StrainLimit::find_reach(const ClothModel& model, const Pins& pins, const Vectors& positions)
 {
@@ -80,17 +91,17 @@ void StrainLimit::find_reach(const ClothModel& model, const Pins& pins, const Ve
 double StrainLimit::max_strain_for(const ClothModel& model, const Pins& pins, const Vectors& positions)
 {
   find_reach(model, pins, positions);
-  return std::max(properties_.max_strain, reach_.strain * room_of_reach);
+  return strain_in_force();
 }
 
 StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state,
                                        Vectors* impulses)
 {
   pins.find_inverse_masses(model.masses, inverse_masses_);
-  const double max_strain = max_strain_for(model, pins, state.positions);
+  find_reach(model, pins, state.positions);
   corrected_.topRows(model.nodes()) = state.positions;
   Vectors shifts = Vectors::Zero(impulses != nullptr ? model.nodes() : 0, 3);
-  const Report report = shortening_->shorten(inverse_masses_, max_strain, properties_.sweeps, corrected_,
+  const Report report = shortening_->shorten(inverse_masses_, strain_in_force(), properties_.sweeps, corrected_,
                                              impulses != nullptr ? &shifts : nullptr);
   if (report.moved)
   {

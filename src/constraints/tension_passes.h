@@ -9,6 +9,7 @@
 
 #include "cloth_sim/constraints/strain_limit.h"
 #include "cloth_sim/model/inverse_root.h"
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/spring_rows.h"
 #include "cloth_sim/model/wide_vectors.h"
 
@@ -414,6 +415,17 @@ void TensionPasses<Scalar>::go_on_from(const TensionPasses& before)
       std::copy_n(theirs[d], run.springs.n, tensions[d]);
     }
   }
+  for (Tethered& tethered : tethers_)
+  {
+    const auto same = std::find_if(before.tethers_.begin(), before.tethers_.end(), [&](const Tethered& candidate) {
+      return candidate.tether.anchor == tethered.tether.anchor;
+    });
+    if (same != before.tethers_.end())
+    {
+      tethered.tensions = same->tensions;
+      tethered.is_taut = same->is_taut;
+    }
+  }
 }
 
 template <typename Scalar>
@@ -551,6 +563,7 @@ template <typename Scalar>
 SpringLengths TensionPasses<Scalar>::find_taut(bool is_first, const Scalar* inverse_masses,
                                                const Columns<Scalar>& positions)
 {
+  ++part_calls()[Part::strain_watch];
   SpringLengths longest = SpringLengths::slack;
   in_widest_vectors([&](auto) {
     for_each_tethered_block([&](Tethered& tethered, size_t block, int node) {
@@ -588,6 +601,7 @@ SpringLengths TensionPasses<Scalar>::find_taut(bool is_first, const Scalar* inve
 template <typename Scalar>
 void TensionPasses<Scalar>::relax_taut(bool backwards, const Scalar* inverse_masses, const Columns<Scalar>& positions)
 {
+  ++part_calls()[Part::strain_limit];
   ++now_;
   in_widest_vectors([&](auto arithmetic) {
     constexpr bool fused = arithmetic.has_fused_multiply_add;

@@ -1,9 +1,22 @@
 #include "cloth_sim/forces/air.h"
 
+#include <cstdint>
+
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/wide_vectors.h"
 
 namespace cloth
 {
+namespace
+{
+
+/// Of a call for some of the nodes, as one of the whole sheet: those that begin with node 0 count.
+std::uint64_t counted(NodeRange nodes)
+{
+  return nodes.begin == 0 && nodes.size() > 0 ? 1 : 0;
+}
+
+}  // namespace
 
 Air::Air(const AirProperties& properties) : properties_(properties), gusts_(properties.gusts)
 {
@@ -35,6 +48,7 @@ void Air::add_forces(const ClothModel& model, double time, const Vectors& positi
 {
   if (properties_.viscous_damping > 0.0)
   {
+    part_calls()[Part::viscous_damping] += counted(nodes);
     in_widest_vectors([&](auto) {
       const double damping = properties_.viscous_damping;
       const double* const areas = model.areas.data();
@@ -63,6 +77,7 @@ void Air::add_forces(const ClothModel& model, double time, const Vectors& positi
 void Air::find_normal_speeds(const ClothModel& model, double time, const Vectors& positions, const Vectors& velocities,
                              NodeRange nodes) const
 {
+  part_calls()[Part::wind] += counted(nodes);
   node_normals(model, positions, nodes, normals_);
   const Eigen::Vector3d wind = wind_at(time);
   in_widest_vectors([&](auto) {
@@ -105,6 +120,7 @@ void Air::damp_implicitly(const ClothModel& model, double time, const Vectors& p
 {
   if (properties_.viscous_damping > 0.0)
   {
+    ++part_calls()[Part::viscous_damping];
     for (int d = 0; d < 3; ++d)
     {
       velocities.col(d).array() *=
@@ -131,8 +147,10 @@ void Air::accelerate_implicitly(const ClothModel& model, double time, const Vect
   const bool coupled = is_coupled(model);
   if (coupled)
   {
+    part_calls()[Part::wind] += counted(nodes);
     node_normals(model, positions, nodes, normals_);
   }
+  part_calls()[Part::viscous_damping] += properties_.viscous_damping > 0.0 ? counted(nodes) : 0;
   const Eigen::Vector3d wind = wind_at(time);
   in_widest_vectors([this, &model, h, nodes, &forces, &velocities, coupled, wind](auto) {
     const double damping = properties_.viscous_damping;
@@ -155,16 +173,32 @@ void Air::accelerate_implicitly(const ClothModel& model, double time, const Vect
       v_y[i] += h * y;
       v_z[i] += h * z;
     };
-#pragma GCC ivdep
-    for (int i = nodes.begin; i < nodes.end; ++i)
+    if (damping > 0.0)
     {
-      const double c = damping * areas[i];
-      const double inverse = 1.0 / (masses[i] + h * c);
-      const double x = inverse * (a_x[i] - c * v_x[i]);
-      const double y = inverse * (a_y[i] - c * v_y[i]);
-      const double z = inverse * (a_z[i] - c * v_z[i]);
-      accelerate(i, x, y, z);
-      add_to_velocity(i, x, y, z);
+#pragma GCC ivdep
+      for (int i = nodes.begin; i < nodes.end; ++i)
+      {
+        const double c = damping * areas[i];
+        const double inverse = 1.0 / (masses[i] + h * c);
+        const double x = inverse * (a_x[i] - c * v_x[i]);
+        const double y = inverse * (a_y[i] - c * v_y[i]);
+        const double z = inverse * (a_z[i] - c * v_z[i]);
+        accelerate(i, x, y, z);
+        add_to_velocity(i, x, y, z);
+      }
+    }
+    else
+    {
+#pragma GCC ivdep
+      for (int i = nodes.begin; i < nodes.end; ++i)
+      {
+        const double inverse = 1.0 / masses[i];
+        const double x = inverse * a_x[i];
+        const double y = inverse * a_y[i];
+        const double z = inverse * a_z[i];
+        accelerate(i, x, y, z);
+        add_to_velocity(i, x, y, z);
+      }
     }
     if (!coupled)
     {
@@ -189,10 +223,12 @@ void Air::add_damping_product(const ClothModel& model, const Vectors& normals, c
 {
   if (properties_.viscous_damping > 0.0)
   {
+    ++part_calls()[Part::viscous_damping];
     product.array() += u.array().colwise() * (properties_.viscous_damping * model.areas.array());
   }
   if (is_coupled(model))
   {
+    ++part_calls()[Part::wind];
     const Eigen::ArrayXd along = normals.cwiseProduct(u).rowwise().sum().array() * model.areas.array();
     product.array() += normals.array().colwise() * (properties_.wind_coupling * along);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/wide_vectors.h"
 #include "spring_blocks.h"
 
@@ -32,6 +33,7 @@ void SpringJacobian::linearise(const ClothModel& model, const Vectors& positions
   negative_sums_.setZero(model.nodes());
   for (size_t b = 0; b < batches_.size(); ++b)
   {
+    count_call(model.springs[b]);
     batches_[b].batch = model.springs[b];
     take_directions(positions, stiffness_factor, batches_[b]);
   }
@@ -111,6 +113,7 @@ void SpringJacobian::add_product(const Vectors& u, Vectors& product) const
     for (const LinearisedBatch& linearised : batches_)
     {
       const SpringBatch& batch = linearised.batch;
+      count_call(batch);
       for_each_counted_block(batch, [&](int done, int i, int n) {
         const double* const across = linearised.across.data() + done;
         const double* const w_x = linearised.w_x.data() + done;

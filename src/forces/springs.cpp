@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/wide_vectors.h"
 #include "spring_blocks.h"
 
@@ -84,12 +85,18 @@ void add_spring_forces(const ClothModel& model, const Vectors& positions, const 
   in_widest_vectors([&](auto arithmetic) {
     constexpr bool fused = arithmetic.has_fused_multiply_add;
     add_by_blocks(model, first_ends, nodes, forces, [&](const SpringBatch& batch, int i, int n, Block& force) {
+      const bool is_first = i == batch.first && i >= nodes.begin;
+      if (is_first)
+      {
+        count_call(batch);
+      }
       if (batch.damping == 0.0)
       {
         find_elastic_forces<fused>(batch, positions, i, n, force);
       }
       else
       {
+        part_calls()[Part::internal_damping] += is_first ? 1 : 0;
         find_elastic_and_damping_forces<fused>(batch, positions, velocities, i, n, force);
       }
     });

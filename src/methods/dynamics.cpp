@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/wide_vectors.h"
 
 namespace cloth
@@ -37,6 +38,12 @@ NodeRange Dynamics::band_of(int thread) const
 
 void Dynamics::external_forces(double /*time*/, NodeRange nodes, Vectors& forces) const
 {
+  if (gravity_.isZero(0.0))
+  {
+    forces.middleRows(nodes.begin, nodes.size()).setZero();
+    return;
+  }
+  part_calls()[Part::gravity] += nodes.begin == 0 ? 1 : 0;
   in_widest_vectors([&](auto) {
     const double* const masses = model_.masses.data();
     for (int d = 0; d < 3; ++d)

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/spring_rows.h"
 #include "cloth_sim/model/wide_vectors.h"
 
@@ -274,6 +275,8 @@ private:
     gains_.clear();
     for (const SpringBatch& batch : model.springs)
     {
+      count_call(batch);
+      part_calls()[Part::internal_damping] += compliance_ * batch.damping > 0.0 ? 1 : 0;
       gains_.push_back(gains_of<float>(batch, compliance_, h));
     }
     Sheet& sheet = *sheet_;

@@ -3,6 +3,8 @@
 
 #include <Eigen/Sparse>
 
+#include "cloth_sim/model/part_calls.h"
+
 #include "rows.h"
 
 namespace cloth
@@ -91,6 +93,7 @@ private:
     }
     for (const SpringBatch& batch : model.springs)
     {
+      count_call(batch);
       const double weight = h * h * batch.stiffness + h * batch.damping;
       for_each_spring(batch, [&](int i, int j) {
         add_spring(places[static_cast<size_t>(i)], places[static_cast<size_t>(j)], weight, entries);
@@ -213,6 +216,7 @@ const MethodRow projective{ "projective",
                             { -1.0, 2 },
                             false,
                             false,
+                            true,
                             1,
                             1,
                             "stable and too soft where the iterations are too few",

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/spring_rows.h"
 #include "cloth_sim/model/wide_vectors.h"
 
@@ -104,6 +105,8 @@ private:
     in_widest_vectors([&](auto arithmetic) {
       for (const SpringBatch& batch : model.springs)
       {
+        count_call(batch);
+        part_calls()[Part::internal_damping] += compliance_ * batch.damping > 0.0 ? 1 : 0;
         for (const int colour : { 0, 1 })
         {
           for (int r = 0; r < batch.rows; ++r)
@@ -177,6 +180,7 @@ const MethodRow xpbd{ "xpbd",
                       { -1.0, 2 },
                       false,
                       false,
+                      true,
                       1,
                       0,
                       "too soft where the substeps are too long, and not alike to both sides: it depends on the order",

@@ -6,6 +6,7 @@
 
 #include "cloth_sim/model/inverse_root.h"
 #include "cloth_sim/model/node_range.h"
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/wide_vectors.h"
 
 namespace cloth
@@ -224,6 +225,7 @@ void node_normals(const ClothModel& model, const Vectors& positions, Vectors& no
 
 void node_normals(const ClothModel& model, const Vectors& positions, NodeRange nodes, Vectors& normals)
 {
+  part_calls()[Part::normals] += nodes.begin == 0 ? 1 : 0;
   normals.middleRows(nodes.begin, nodes.size()).setZero();
   in_widest_vectors([&](auto arithmetic) {
     const int begin = model.row_of(nodes.begin);

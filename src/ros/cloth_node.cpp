@@ -355,6 +355,10 @@ void ClothNode::idle()
 bool ClothNode::apply_requests()
 {
   const auto requests = requests_.take_all();
+  if (!requests.empty())
+  {
+    bring_back_what_was_left_out();
+  }
   for (const RequestQueue::Request& request : requests)
   {
     request(cloth_->simulation);
@@ -366,6 +370,7 @@ bool ClothNode::apply_wind()
 {
   if (const auto wind = requests_.take_wind())
   {
+    bring_back_what_was_left_out();
     warn_where_wind_has_no_effect();
     cloth_->simulation.set_wind(*wind);
     cloth_->wind_time_out.restart(clock_.now());
@@ -379,6 +384,26 @@ bool ClothNode::apply_wind()
     return true;
   }
   return false;
+}
+
+/// A trial holds for the scene as it was tried, not for what comes from outside.
+void ClothNode::bring_back_what_was_left_out()
+{
+  const std::vector<std::string> left_out = cloth_->plan.choice.left_out;
+  if (left_out.empty())
+  {
+    return;
+  }
+  try
+  {
+    cloth_ = std::make_unique<LiveCloth>(*cloth_, cloth_->scene);
+    ROS_INFO("from now on with %s, since something came that was not there in the trial", joined(left_out).c_str());
+    publish_topology_if_changed();
+  }
+  catch (const SceneError& error)
+  {
+    ROS_WARN("goes on without %s: %s", joined(left_out).c_str(), error.what());
+  }
 }
 
 void ClothNode::warn_where_wind_has_no_effect()
@@ -537,6 +562,7 @@ void ClothNode::publish_diagnostics_when_due()
   condition.asked = cloth_->plan.scene.node;
   condition.strain_limit = cloth_->plan.scene.strain_limit.max_strain;
   condition.divergence = cloth_->simulation.divergence_report();
+  condition.asleep_since = cloth_->simulation.asleep_since();
   condition.transform = frames_.last_use();
   condition.tick_under_way = tick_begin_ ? std::chrono::duration<double>(now - *tick_begin_).count() : 0.0;
   health_.publish(condition, now);

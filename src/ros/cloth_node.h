@@ -90,6 +90,7 @@ private:
   void report_divergence();
   /// Wind that came by topic, or the scene's where none came for long.
   bool apply_wind();
+  void bring_back_what_was_left_out();
   void warn_where_wind_has_no_effect();
   void carry_pins(double simulated_time);
   /// Whether what the cloth does to the holders of its pins is measured: for listeners only.

@@ -102,6 +102,7 @@ void report_cloth(const Condition& condition, DiagnosticStatusWrapper& status)
   status.add("stability margin", in_short(stability_margin(stats)));
   status.add("steps not solved", stats.unconverged_steps);
   status.add("simulated time (s)", format_number(stats.sim_time));
+  status.add("asleep since (s)", condition.asleep_since ? format_number(*condition.asleep_since) : "awake");
 }
 
 void report_transforms(const Condition& condition, DiagnosticStatusWrapper& status)

@@ -26,6 +26,7 @@ struct Condition
   std::uint32_t new_overruns = 0;        ///< since the last report
   double strain_limit = 0.0;             ///< 0: none
   std::string divergence;                ///< in words; empty: none
+  std::optional<double> asleep_since;    ///< simulated s; none: the cloth is awake
   std::optional<Frames::Use> transform;  ///< the last that tf was asked for
 };
 

@@ -151,6 +151,13 @@ inline std::string word_of(bool value)
   return value ? "true" : "false";
 }
 
+// An accessor that serves for reading and for writing.
+#define CLOTH_MEMBER(path)  \
+  [](auto& target) -> auto& \
+  {                         \
+    return target.path;     \
+  }
+
 /// Makes the rows of a table whose values live in a Target. `access` gives the value's place in it.
 template <typename Target>
 struct RowsOf

@@ -105,13 +105,6 @@ Parameter<SceneParams> path_or_none(const char* key, const char* meaning, Access
   return parameter;
 }
 
-// An accessor that serves for reading and for writing.
-#define CLOTH_MEMBER(path)  \
-  [](auto& target) -> auto& \
-  {                         \
-    return target.path;     \
-  }
-
 std::vector<Parameter<SceneParams>> make_table()
 {
   using Scene = RowsOf<SceneParams>;
@@ -189,7 +182,7 @@ std::vector<Parameter<SceneParams>> make_table()
     live(Scene::integer("air.gusts.seed", 0, 2147483647, "the same seed is the same gusts at the same simulated time",
                         CLOTH_MEMBER(air.gusts.seed))),
 
-    live(Scene::choice("solver.method", method_words(), "time-stepping method; auto is velocity_verlet",
+    live(Scene::choice("solver.method", method_words(), "time-stepping method; auto: trial runs at the start find the cheapest that meets solver.tolerance",
                        CLOTH_MEMBER(solver.method))),
     live(Scene::number(
         "solver.time_step", "s", Range{ 1e-9, true, infinity, true },
@@ -197,7 +190,8 @@ std::vector<Parameter<SceneParams>> make_table()
         "dopri5: the largest step, 0: none",
         CLOTH_MEMBER(solver.time_step))),
     live(Scene::number("solver.tolerance", "m", Range{ 1e-12, true },
-                       "dopri5: bounds the estimated position error of a step; auto does not use it yet",
+                       "auto: what the motion may err by, as a root mean square over all nodes and the first second; dopri5: bounds the "
+                       "estimated position error of a step",
                        CLOTH_MEMBER(solver.tolerance))),
     live(Scene::integer("solver.iterations", 1, 10000,
                         "projective: local-global iterations a step; xpbd: substeps a step",
@@ -276,8 +270,6 @@ std::vector<Parameter<PinParams>> make_pin_table()
     Pin::number("motion.phase", "rad", any, "phase", CLOTH_MEMBER(motion.phase)),
   };
 }
-
-#undef CLOTH_MEMBER
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "cloth_sim/scene/plan.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cloth_sim/scene/pin_selection.h"
@@ -7,12 +8,19 @@
 #include "cloth_sim/scene/scene_start.h"
 #include "cloth_sim/scene/yaml_text.h"
 
+#include "../planning/grid_report.h"
+#include "../planning/model_parts.h"
+#include "../planning/planner.h"
+#include "../planning/step_search.h"
+
 namespace cloth
 {
 namespace
 {
 
-constexpr const char* automatic_method = "velocity_verlet";
+constexpr const char* automatic = "auto";
+/// Where nothing was tried: no other explicit method is as cheap for its order.
+constexpr const char* untried_method = "velocity_verlet";
 
 PlanLine spring_line(const SheetProperties& sheet, SpringKind kind, const SpringProperties& properties)
 {
@@ -36,6 +44,17 @@ PlanLine spring_line(const SheetProperties& sheet, SpringKind kind, const Spring
   line.reason = std::to_string(count) + " of " + format_number(properties.stiffness) + " N/m" +
                 (properties.damping == 0.0 ? ", undamped" : " and " + format_number(properties.damping) + " N s/m");
   return line;
+}
+
+PlanLine internal_damping_line(const SheetProperties& sheet)
+{
+  double most = 0.0;
+  for (const SpringProperties& kind : { sheet.structural, sheet.shear, sheet.flex })
+  {
+    most = kind.stiffness > 0.0 ? std::max(most, kind.damping) : most;
+  }
+  return { "internal damping", most > 0.0,
+           most > 0.0 ? "at most " + format_number(most) + " N s/m" : "no spring is damped" };
 }
 
 PlanLine gravity_line(const SceneParams& scene)
@@ -130,18 +149,78 @@ std::string settings_of(const SolverParams& solver)
   return "";
 }
 
-PlanLine method_line(const SceneParams& scene)
+constexpr const char* method_part = "method";
+constexpr const char* start_part = "start";
+
+/// What the scene leaves open is not chosen yet.
+Planned as_the_scene_says(const SceneParams& scene)
 {
-  if (scene.solver.method != "auto")
-  {
-    return { "method", true, scene.solver.method + ", as the scene says" + settings_of(scene.solver) };
-  }
-  return { "method", true,
-           std::string(automatic_method) + ", which is what auto takes; the tolerance of " +
-               format_number(scene.solver.tolerance) + " m is not used yet" };
+  Planned planned;
+  const bool is_open = scene.solver.method == automatic;
+  planned.choice.method = is_open ? untried_method : scene.solver.method;
+  planned.choice.time_step = scene.solver.time_step;
+  planned.choice.tolerance = scene.solver.tolerance;
+  planned.choice.iterations = scene.solver.iterations;
+  planned.reason = is_open ? std::string(untried_method) + ", until the scene is loaded again and others are tried" :
+                             scene.solver.method + ", as the scene says" + settings_of(scene.solver);
+  return planned;
 }
 
-constexpr const char* start_part = "start";
+constexpr const char* sleep_part = "sleep";
+/// A cloth sleeps where going on would move no node by more than this part of the tolerance.
+constexpr double share_of_sleep = 0.25;
+
+double sleep_distance(const SceneParams& scene)
+{
+  const bool may_sleep = scene.plan == "auto" && scene.solver.method == automatic;
+  return may_sleep ? share_of_sleep * scene.solver.tolerance : 0.0;
+}
+
+PlanLine sleep_line(const SceneParams& scene)
+{
+  if (scene.plan != "auto")
+  {
+    return { sleep_part, false, "plan is " + scene.plan };
+  }
+  if (scene.solver.method != automatic)
+  {
+    return { sleep_part, false, "solver.method is " + scene.solver.method + ", not auto" };
+  }
+  return { sleep_part, true,
+           "no steps while the sheet is at rest, within " + format_number(sleep_distance(scene)) +
+               " m, a quarter of the tolerance" };
+}
+
+Planned planned_for(const SceneParams& scene, const SceneStart& start)
+{
+  if (scene.solver.method != automatic)
+  {
+    return as_the_scene_says(scene);
+  }
+  StepCosts costs(StepCosts::usual_path());
+  return plan_by_trial({ scene, start }, costs);
+}
+
+/// A line of the scene, with what a trial said of its part.
+PlanLine after_trial(PlanLine line, const Planned& planned, double tolerance)
+{
+  const auto tried = std::find_if(planned.tried.begin(), planned.tried.end(),
+                                  [&](const TriedPart& part) { return part.part == line.part; });
+  if (tried == planned.tried.end())
+  {
+    return line;
+  }
+  const std::vector<std::string>& left_out = planned.choice.left_out;
+  const std::string change = in_two_digits(tried->change) + " m";
+  if (std::find(left_out.begin(), left_out.end(), line.part) == left_out.end())
+  {
+    line.reason += "; without, the answer changes by " + change;
+    return line;
+  }
+  return { line.part, false,
+           "it changes the answer by " + change + ", the tolerance is " + format_number(tolerance) + " m (" +
+               line.reason + ")" };
+}
 
 void require_fitting_compliance(const SolverParams& solver)
 {
@@ -163,28 +242,39 @@ void require_fitting_precision(const SolverParams& solver)
   }
 }
 
-Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneStart& start)
+Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneStart& start, const Planned& planned)
 {
   Plan plan;
-  plan.scene = scene;
-  plan.method = find_method(scene.solver.method == "auto" ? automatic_method : scene.solver.method);
-  plan.choice.method = plan.method->name;
-  plan.choice.time_step = scene.solver.time_step;
-  plan.choice.tolerance = scene.solver.tolerance;
-  plan.choice.iterations = scene.solver.iterations;
+  plan.asked = scene;
+  plan.choice = planned.choice;
+  plan.method = find_method(plan.choice.method);
+  plan.scene = without(scene, plan.choice.left_out);
+  plan.scene.solver.method = plan.choice.method;
+  plan.scene.solver.time_step = plan.choice.time_step;
+  plan.scene.solver.tolerance = plan.choice.tolerance;
+  plan.scene.solver.iterations = plan.choice.iterations;
+  plan.keeps_within_limit = scene.solver.method == automatic;
   plan.start = start.state;
+  plan.start_is_settled = start.is_settled;
+  plan.sleep_distance = sleep_distance(scene);
   plan.lines = {
     spring_line(scene.sheet, SpringKind::structural, scene.sheet.structural),
     spring_line(scene.sheet, SpringKind::shear, scene.sheet.shear),
     spring_line(scene.sheet, SpringKind::flex, scene.sheet.flex),
+    internal_damping_line(scene.sheet),
     gravity_line(scene),
     viscous_damping_line(scene),
     wind_line(scene),
     strain_limit_line(scene),
     pin_line(pins_of(scene.pins, model, model.rest_positions)),
     { start_part, true, start.description },
-    method_line(scene),
+    { method_part, true, planned.reason },
+    sleep_line(scene),
   };
+  for (PlanLine& line : plan.lines)
+  {
+    line = after_trial(line, planned, scene.solver.tolerance);
+  }
   if (!strain_limit_line(scene).kept)
   {
     plan.scene.strain_limit.max_strain = 0.0;
@@ -204,8 +294,11 @@ SimulationSetup setup_of(const Plan& plan)
   setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance,
                             scene.solver.precision };
   setup.time_step = scene.solver.time_step;
+  setup.keeps_within_limit = plan.keeps_within_limit;
   setup.threads = scene.solver.threads;
   setup.start = plan.start;
+  setup.start_is_settled = plan.start_is_settled;
+  setup.sleep_distance = plan.sleep_distance;
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
   return setup;
 }
@@ -242,27 +335,56 @@ Plan make_plan(const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
   require_fitting_precision(scene.solver);
-  const ClothModel model = make_sheet(scene.sheet);
-  return plan_with(scene, model, scene_start(scene, model));
+  return make_plan(scene, scene_start(scene, make_sheet(scene.sheet)));
 }
 
 Plan make_plan(const SceneParams& scene, const SceneStart& start)
 {
   require_fitting_compliance(scene.solver);
   require_fitting_precision(scene.solver);
-  return plan_with(scene, make_sheet(scene.sheet), start);
+  return plan_with(scene, make_sheet(scene.sheet), start, planned_for(scene, start));
+}
+
+Plan make_plan(const SceneParams& scene, const Choice& choice)
+{
+  require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
+  const ClothModel model = make_sheet(scene.sheet);
+  Planned planned = as_the_scene_says(scene);
+  if (scene.solver.method == automatic)
+  {
+    planned.choice = choice;
+    planned.reason = choice.method + ", as it was chosen before";
+  }
+  return plan_with(scene, model, scene_start(scene, model), planned);
 }
 
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
   require_fitting_precision(scene.solver);
-  SceneStart start{ running.start, {} };
+  SceneStart start{ running.start, {}, false };
   for (const PlanLine& line : running.lines)
   {
     start.description = line.part == start_part ? line.reason : start.description;
   }
-  return plan_with(scene, make_sheet(scene.sheet), start);
+  Planned planned = as_the_scene_says(scene);
+  if (scene.solver.method == automatic && running.asked.solver.method == automatic)
+  {
+    planned.choice = running.choice;
+    planned.choice.left_out.clear();
+    for (const PlanLine& line : running.lines)
+    {
+      planned.reason = line.part == method_part ? line.reason : planned.reason;
+    }
+  }
+  return plan_with(scene, make_sheet(scene.sheet), start, planned);
+}
+
+std::string described_grid(const Plan& plan)
+{
+  StepCosts costs(StepCosts::usual_path());
+  return grid_report({ plan.asked, { plan.start, {}, plan.start_is_settled } }, plan.choice, costs);
 }
 
 Simulation build_simulation(const Plan& plan)
@@ -283,8 +405,9 @@ Simulation carry_on(const Plan& plan, const Simulation& running)
 namespace
 {
 
-std::string described_step(double given, const Simulation& simulation, double stability_limit)
+std::string described_step(const Plan& plan, const Simulation& simulation, double stability_limit)
 {
+  const double given = plan.scene.solver.time_step;
   const std::string name = simulation.method().name;
   const std::string limit = format_number(stability_limit) + " s";
   if (simulation.method().is_adaptive)
@@ -293,6 +416,11 @@ std::string described_step(double given, const Simulation& simulation, double st
            "; steps beyond its stability limit, " + limit + ", would be rejected";
   }
   const std::string step = format_number(simulation.time_step()) + " s, ";
+  if (given > 0.0 && plan.keeps_within_limit)
+  {
+    return step + "as chosen, and never above " + format_number(Simulation::limit_share) +
+           " of the stability limit of " + name + ", " + limit;
+  }
   if (given > simulation.time_step())
   {
     return step + format_number(Simulation::limit_share) + " of the stability limit of " + name + ", " + limit +
@@ -331,9 +459,13 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
   for (const PlanLine& line : plan.lines)
   {
     lines.push_back(line.part + ": " + (line.kept ? "kept, " : "left out, ") + line.reason);
+    if (line.part == sleep_part && simulation.asleep_since())
+    {
+      lines.back() += "; asleep since " + format_number(*simulation.asleep_since()) + " s";
+    }
   }
   lines.push_back("threads: " + described_threads(simulation));
-  lines.push_back("time step: " + described_step(plan.scene.solver.time_step, simulation, stability_limit));
+  lines.push_back("time step: " + described_step(plan, simulation, stability_limit));
   return lines;
 }
 

@@ -73,38 +73,13 @@ std::string obstacle_to_catenaries(const SceneParams& scene, const ClothModel& m
   return {};
 }
 
-/// Whether every free node is joined to a pin by springs.
-bool is_held(const ClothModel& model, const FlatSheet& flat)
-{
-  std::vector<char> held(static_cast<size_t>(model.nodes()), 0);
-  for (const int node : flat.pinned)
-  {
-    held[static_cast<size_t>(node)] = 1;
-  }
-  bool spread = true;
-  while (spread)
-  {
-    spread = false;
-    for (const SpringBatch& batch : model.springs)
-    {
-      for_each_spring(batch, [&](int i, int j) {
-        char& one = held[static_cast<size_t>(i)];
-        char& other = held[static_cast<size_t>(j)];
-        spread = spread || one != other;
-        one = other = one || other;
-      });
-    }
-  }
-  return std::find(held.begin(), held.end(), 0) == held.end();
-}
-
 /// Relaxes a sheet some spring of which starts overstretched: springs and gravity roughly, then the strain limit.
 /// False: none does.
 bool relax(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat, Vectors& positions)
 {
   const double limit = scene.strain_limit.max_strain;
   const double most = limit > 0.0 ? std::min(limit, most_start_strain) : most_start_strain;
-  if (max_strain(model, positions) <= most || !is_held(model, flat))
+  if (max_strain(model, positions) <= most || !holds_every_node(model, flat.pins))
   {
     return false;
   }
@@ -124,7 +99,7 @@ bool relax(const SceneParams& scene, const ClothModel& model, const FlatSheet& f
 
 SceneStart catenary_start(const SceneParams& scene, const ClothModel& model, const FlatSheet& flat)
 {
-  SceneStart start{ flat.state, "catenary, between " + std::to_string(flat.pinned.size()) + " pinned nodes" };
+  SceneStart start{ flat.state, "catenary, between " + std::to_string(flat.pinned.size()) + " pinned nodes", false };
   start.state.positions = hung_in_catenaries(scene.start, model, flat.pinned, scene.gravity.normalized());
   start.description += relax(scene, model, flat, start.state.positions) ? ", relaxed" : "";
   return start;
@@ -154,7 +129,7 @@ SceneStart settled_start(const SceneParams& scene, const ClothModel& model, cons
   {
     refuse(scene, "the sheet has no pins and falls for ever; add pins, or take cloth.start: flat");
   }
-  if (!scene.gravity.isZero(0.0) && !is_held(model, flat))
+  if (!scene.gravity.isZero(0.0) && !holds_every_node(model, flat.pins))
   {
     refuse(scene,
            "no springs join some nodes to a pin, and they fall for ever; add springs, or take cloth.start: flat");
@@ -171,7 +146,8 @@ SceneStart settled_start(const SceneParams& scene, const ClothModel& model, cons
     refuse(scene, "no rest was found in " + iterations + ": " + force + ", allowed is " + in_short(rest_tolerance) +
                       "; " + cure_of_unrest(scene, report));
   }
-  return { state, "settled, from " + std::string(hangs ? "catenary" : "flat") + " in " + iterations + "; " + force };
+  return { state, "settled, from " + std::string(hangs ? "catenary" : "flat") + " in " + iterations + "; " + force,
+           true };
 }
 
 }  // namespace
@@ -192,7 +168,7 @@ SceneStart scene_start(const SceneParams& scene, const ClothModel& model)
   {
     return settled_start(scene, model, flat);
   }
-  return { flat.state, "flat" };
+  return { flat.state, "flat", false };
 }
 
 }  // namespace cloth

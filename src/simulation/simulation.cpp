@@ -36,8 +36,11 @@ Simulation::Simulation(SimulationSetup setup)
   : dynamics_(std::move(setup.model), setup.gravity, setup.air)
   , strain_limit_(dynamics_.model(), setup.strain_limit)
   , method_row_(setup.method)
+  , method_settings_(setup.method_settings)
   , given_time_step_(setup.time_step)
+  , given_share_(setup.keeps_within_limit ? limit_share : std::numeric_limits<double>::infinity())
   , state_(std::move(setup.start))
+  , rest_watch_(setup.sleep_distance)
 {
   if (method_row_ == nullptr)
   {
@@ -47,7 +50,7 @@ Simulation::Simulation(SimulationSetup setup)
   {
     throw std::invalid_argument("the start state must have a position and a velocity for every node");
   }
-  method_ = method_row_->make(setup.method_settings);
+  method_ = method_row_->make(method_settings_);
   dynamics_.use_threads(threads_for(model(), setup.threads));
   for (const Pin& pin : setup.pins)
   {
@@ -55,14 +58,19 @@ Simulation::Simulation(SimulationSetup setup)
   }
   dynamics_.pins().impose(state_.time, state_.positions, state_.velocities);
   changed_from_outside();
+  if (setup.start_is_settled)
+  {
+    rest_watch_.begin_settled(dynamics_, state_);
+  }
 }
 
 Simulation Simulation::gone_over_to(SimulationSetup setup) const
 {
   setup.pins = pins().all();
   setup.start = state_;
+  setup.start_is_settled = false;
   Simulation next(std::move(setup));
-  next.keeps_within_limit_ = true;
+  next.given_share_ = std::min(next.given_share_, 1.0);
   next.strain_limit_.go_on_from(strain_limit_);
   next.last_step_ = last_step_;
   next.divergence_ = divergence_;
@@ -92,6 +100,7 @@ void Simulation::shorten_at_no_speed()
 void Simulation::step(double h)
 {
   const double begin = state_.time;
+  const PartCalls calls_before = part_calls();
   method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
   const bool has_tensions = strain_limit_.active() && strain_limit_.properties().solver == LimitSolver::tensions;
   method_->limit_strain(has_tensions ? strain_limit_.max_strain_for(model(), pins(), state_.positions) : 0.0,
@@ -114,13 +123,15 @@ void Simulation::step(double h)
   counters_.linear_iterations += static_cast<std::uint64_t>(report.linear_iterations);
   counters_.rejected_steps += static_cast<std::uint64_t>(report.rejected_steps);
   counters_.unconverged_steps += report.converged ? 0 : 1;
+  counters_.calls.add_difference(calls_before, part_calls());
   ++counters_.steps;
 }
 
 bool Simulation::advance_to(double time, const std::function<bool()>& stops)
 {
-  double longest = longest_step();
-  while (!divergence_ && state_.time < time)
+  sleep_where_at_rest();
+  double longest = asleep_since_ ? 0.0 : longest_step();
+  while (!divergence_ && !asleep_since_ && state_.time < time)
   {
     if (!(longest >= shortest_step))
     {
@@ -137,6 +148,7 @@ bool Simulation::advance_to(double time, const std::function<bool()>& stops)
       take_equal_steps(time, longest);
     }
     keep_or_restore();
+    sleep_where_at_rest();
     if (state_.time < time && stops && stops())
     {
       break;
@@ -146,7 +158,31 @@ bool Simulation::advance_to(double time, const std::function<bool()>& stops)
       longest = std::min(longest, longest_step());
     }
   }
+  if (asleep_since_)
+  {
+    state_.time = last_good_.time = std::max(state_.time, time);
+  }
   return !divergence_;
+}
+
+void Simulation::sleep_where_at_rest()
+{
+  if (asleep_since_ || divergence_ || measures_reactions_ || !rest_watch_.finds_rest(dynamics_, strain_limit_, state_))
+  {
+    return;
+  }
+  asleep_since_ = state_.time;
+  state_.velocities.setZero();
+  last_good_ = state_;
+  method_ = method_row_->make(method_settings_);
+}
+
+void Simulation::wake()
+{
+  if (asleep_since_)
+  {
+    changed_from_outside();
+  }
 }
 
 void Simulation::take_equal_steps(double time, double longest)
@@ -159,6 +195,7 @@ void Simulation::take_equal_steps(double time, double longest)
   {
     step(h);
     state_.time = s == steps ? time : begin + static_cast<double>(s) * h;
+    rest_watch_.look(state_);
   }
 }
 
@@ -172,6 +209,7 @@ void Simulation::take_adaptive_steps(double time, double longest)
     {
       state_.time = time;
     }
+    rest_watch_.look(state_);
   }
 }
 
@@ -192,6 +230,8 @@ void Simulation::changed_from_outside()
   stability_watch_.forget();
   guard_.open(dynamics_, state_);
   last_good_ = state_;
+  asleep_since_.reset();
+  rest_watch_.begin(dynamics_, state_);
 }
 
 double Simulation::stability_limit() const
@@ -210,13 +250,13 @@ double Simulation::longest_step() const
   {
     return given_time_step_ > 0.0 ? given_time_step_ : std::numeric_limits<double>::infinity();
   }
-  return given_time_step_ > 0.0 && !keeps_within_limit_ ? given_time_step_ : limited_step();
+  return given_time_step_ > 0.0 && std::isinf(given_share_) ? given_time_step_ : limited_step();
 }
 
 double Simulation::limited_step() const
 {
   const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
-  if (given_time_step_ > 0.0 && given_time_step_ <= limit)
+  if (given_time_step_ > 0.0 && given_time_step_ <= given_share_ * limit)
   {
     return given_time_step_;
   }
@@ -251,6 +291,8 @@ void Simulation::measure_reactions(bool measure)
   measures_reactions_ = measure;
   if (measure)
   {
+    wake();
+    rest_watch_.begin(dynamics_, state_);
     measured_since_ = state_.time;
     velocities_before_ = state_.velocities;
     impulses_.setZero(model().nodes(), 3);
@@ -279,7 +321,16 @@ Wrench Simulation::reaction_on(const Pin& pin) const
 
 void Simulation::set_wind(const Eigen::Vector3d& wind)
 {
-  dynamics_.air().set_wind(wind);
+  if (wind != dynamics_.air().properties().wind)
+  {
+    dynamics_.air().set_wind(wind);
+    wake();
+    rest_watch_.begin(dynamics_, state_);
+  }
+  else if (asleep_since_)
+  {
+    return;
+  }
   method_->restart();
   guard_.open(dynamics_, state_);
 }
@@ -294,33 +345,66 @@ void Simulation::hold(const std::string& name, const std::vector<int>& nodes)
 bool Simulation::release(const std::string& name)
 {
   const bool released = dynamics_.pins().release(name);
-  changed_from_outside();
+  if (released)
+  {
+    changed_from_outside();
+  }
   return released;
 }
 
 void Simulation::release_all()
 {
-  dynamics_.pins().release_all();
-  changed_from_outside();
+  if (!pins().all().empty())
+  {
+    dynamics_.pins().release_all();
+    changed_from_outside();
+  }
 }
 
 bool Simulation::carry(const std::string& name, const Eigen::Vector3d& target, double duration)
 {
-  const bool carried = dynamics_.pins().carry(name, target, state_.time, state_.time + duration);
+  const Pin* const pin = pins().find(name);
+  if (pin == nullptr)
+  {
+    return false;
+  }
+  const Eigen::Isometry3d now = pin->carry.placement(state_.time);
+  if (is_there(*pin, Eigen::Translation3d(target - pin->middle(state_.time)) * now))
+  {
+    return true;
+  }
+  dynamics_.pins().carry(name, target, state_.time, state_.time + duration);
   pins_sent_elsewhere();
-  return carried;
+  return true;
 }
 
 bool Simulation::carry(const std::string& name, const Eigen::Isometry3d& placement, const Eigen::Vector3d& pivot,
                        double end)
 {
-  const bool carried = dynamics_.pins().carry(name, placement, pivot, state_.time, end);
+  const Pin* const pin = pins().find(name);
+  if (pin == nullptr)
+  {
+    return false;
+  }
+  if (is_there(*pin, placement))
+  {
+    return true;
+  }
+  dynamics_.pins().carry(name, placement, pivot, state_.time, end);
   pins_sent_elsewhere();
-  return carried;
+  return true;
+}
+
+/// Stays there already, to a rounding error.
+bool Simulation::is_there(const Pin& pin, const Eigen::Isometry3d& placement) const
+{
+  return !pin.moves_at(state_.time) && pin.carry.placement(state_.time).isApprox(placement, 1e-13);
 }
 
 void Simulation::pins_sent_elsewhere()
 {
+  wake();
+  rest_watch_.begin(dynamics_, state_);
   method_->restart();
   guard_.allow_pin_motion(dynamics_);
 }

@@ -21,6 +21,9 @@ namespace
 
 constexpr int most_iterations = 3000;
 constexpr int most_products = 200000;
+/// Of a question that is asked while time goes on.
+constexpr double tolerance_near_rest = 1e-8;
+constexpr int most_products_near_rest = 5000;
 constexpr int most_multiplier_sets = 20;
 /// From this set on a limit is out of reach that a set brings hardly nearer.
 constexpr int first_telling_set = 6;
@@ -279,7 +282,8 @@ public:
     move_to(positions);
   }
 
-  void run()
+  /// Gives up after so many products.
+  void run(int most_products)
   {
     bool is_lost = false;
     while (!report_.converged && !is_lost && report_.iterations < most_iterations &&
@@ -446,9 +450,41 @@ StaticsReport settle(const ClothModel& model, const Pins& pins, const Eigen::Vec
                      double tolerance, Vectors& positions)
 {
   Settling settling(model, pins, gravity, max_strain, tolerance, positions);
-  settling.run();
+  settling.run(most_products);
   positions = settling.positions();
   return settling.report();
+}
+
+bool is_near_rest(const ClothModel& model, const Pins& pins, const Eigen::Vector3d& gravity, double max_strain,
+                  double distance, const Vectors& positions)
+{
+  Settling settling(model, pins, gravity, max_strain, tolerance_near_rest, positions);
+  settling.run(most_products_near_rest);
+  return settling.report().converged && longest_row(settling.positions() - positions) <= distance;
+}
+
+bool holds_every_node(const ClothModel& model, const Pins& pins)
+{
+  std::vector<char> held(static_cast<size_t>(model.nodes()), 0);
+  for (int node = 0; node < model.nodes(); ++node)
+  {
+    held[static_cast<size_t>(node)] = pins.holds(node) ? 1 : 0;
+  }
+  bool spread = true;
+  while (spread)
+  {
+    spread = false;
+    for (const SpringBatch& batch : model.springs)
+    {
+      for_each_spring(batch, [&](int i, int j) {
+        char& one = held[static_cast<size_t>(i)];
+        char& other = held[static_cast<size_t>(j)];
+        spread = spread || one != other;
+        one = other = one || other;
+      });
+    }
+  }
+  return std::find(held.begin(), held.end(), 0) == held.end();
 }
 
 }  // namespace cloth

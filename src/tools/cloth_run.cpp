@@ -41,6 +41,14 @@ cloth::SceneParams read_scene_with_settings(const cloth::RunOptions& options)
   return cloth::read_scene(tree);
 }
 
+cloth::Plan plan_for(const cloth::RunOptions& options)
+{
+  const cloth::SceneParams scene = read_scene_with_settings(options);
+  return options.plan_file.empty() ?
+             cloth::make_plan(scene) :
+             cloth::make_plan(scene, cloth::read_choice(cloth::load_scene_file(options.plan_file)));
+}
+
 /// A line on a terminal that is written over.
 class Progress
 {
@@ -99,7 +107,7 @@ double sample_time(std::uint64_t k, const cloth::RunOptions& options)
 
 int run(const cloth::RunOptions& options)
 {
-  const cloth::Plan plan = cloth::make_plan(read_scene_with_settings(options));
+  const cloth::Plan plan = plan_for(options);
   cloth::Simulation simulation = cloth::build_simulation(plan);
   const std::vector<std::string> plan_lines = cloth::describe(plan, simulation);
   if (options.plan_only)
@@ -108,6 +116,7 @@ int run(const cloth::RunOptions& options)
     {
       std::cout << line << "\n";
     }
+    std::cout << "grid: " << cloth::described_grid(plan) << "\n";
     return done;
   }
   const std::string warning = cloth::time_step_warning(simulation);
@@ -157,7 +166,7 @@ int run(const cloth::RunOptions& options)
   }
   if (summary)
   {
-    cloth::write_summary(summary->stream(), simulation, stopwatch.seconds(), plan_lines);
+    cloth::write_summary(summary->stream(), simulation, stopwatch.seconds(), plan_lines, plan.choice);
     summary->commit();
   }
   if (simulation.divergence())

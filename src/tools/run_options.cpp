@@ -17,7 +17,8 @@ const char* const run_usage =
   --set KEY=VALUE      sets a key of the scene, as in solver.time_step=1e-3; may be repeated
   --output FILE.csv    every node's position and velocity at time 0, at each sample and at the end
   --summary FILE.yaml  what the run cost and how it ended
-  --plan               prints what is modelled and why, and does not run
+  --plan               prints what is modelled and why, and which coarser grid would do, and does not run
+  --plan-from FILE     takes the plan of an earlier run from its summary: nothing is tried, and the run is the same again
   --help               prints this
 
 Exit status: 0 done, 1 the simulation diverged, 2 bad scene or usage.
@@ -53,10 +54,15 @@ std::pair<std::string, std::string> parse_setting(const std::string& text)
 RunOptions parse_run_options(int argc, char** argv)
 {
   static const option known[] = {
-    { "duration", required_argument, nullptr, 'd' }, { "every", required_argument, nullptr, 'e' },
-    { "set", required_argument, nullptr, 's' },      { "output", required_argument, nullptr, 'o' },
-    { "summary", required_argument, nullptr, 'y' },  { "plan", no_argument, nullptr, 'p' },
-    { "help", no_argument, nullptr, 'h' },           { nullptr, 0, nullptr, 0 },
+    { "duration", required_argument, nullptr, 'd' },
+    { "every", required_argument, nullptr, 'e' },
+    { "set", required_argument, nullptr, 's' },
+    { "output", required_argument, nullptr, 'o' },
+    { "summary", required_argument, nullptr, 'y' },
+    { "plan", no_argument, nullptr, 'p' },
+    { "plan-from", required_argument, nullptr, 'f' },
+    { "help", no_argument, nullptr, 'h' },
+    { nullptr, 0, nullptr, 0 },
   };
   RunOptions options;
   opterr = 0;
@@ -79,6 +85,9 @@ RunOptions parse_run_options(int argc, char** argv)
         break;
       case 'y':
         options.summary_file = optarg;
+        break;
+      case 'f':
+        options.plan_file = optarg;
         break;
       case 'p':
         options.plan_only = true;

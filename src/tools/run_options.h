@@ -24,6 +24,7 @@ struct RunOptions
   std::vector<std::pair<std::string, std::string>> settings;  ///< dotted key and value, in the order given
   std::string output_file;                                    ///< empty: none
   std::string summary_file;                                   ///< empty: none
+  std::string plan_file;                                      ///< with a choice that was made before; empty: none
   bool plan_only = false;
   bool help = false;
 };

@@ -37,6 +37,16 @@ void emit(YAML::Emitter& emitter, const char* key, const Eigen::Vector3d& vector
   emitter << YAML::EndSeq;
 }
 
+void emit(YAML::Emitter& emitter, const char* key, const PartCalls& calls)
+{
+  emitter << YAML::Key << key << YAML::Value << YAML::BeginMap;
+  for (std::size_t part = 0; part < number_of_parts; ++part)
+  {
+    emit(emitter, name_of(static_cast<Part>(part)), calls.counts[part]);
+  }
+  emitter << YAML::EndMap;
+}
+
 }  // namespace
 
 void write_csv_header(std::ostream& stream)
@@ -58,7 +68,7 @@ void write_csv_sample(std::ostream& stream, const ClothState& state)
 }
 
 void write_summary(std::ostream& stream, const Simulation& simulation, double wall_time,
-                   const std::vector<std::string>& plan)
+                   const std::vector<std::string>& plan, const Choice& choice)
 {
   const ClothState& state = simulation.state();
   const Simulation::Counters& counters = simulation.counters();
@@ -76,6 +86,11 @@ void write_summary(std::ostream& stream, const Simulation& simulation, double wa
   emit(emitter, "rejected_steps", counters.rejected_steps);
   emit(emitter, "unconverged_steps", counters.unconverged_steps);
   emit(emitter, "limit_sweeps", counters.limit_sweeps);
+  emit(emitter, "calls", counters.calls);
+  if (simulation.asleep_since())
+  {
+    emit(emitter, "asleep_since", *simulation.asleep_since());
+  }
   emit(emitter, "method", std::string(simulation.method().name));
   emit(emitter, "time_step", simulation.time_step());
   emit(emitter, "stability_limit", simulation.stability_limit());
@@ -86,6 +101,8 @@ void write_summary(std::ostream& stream, const Simulation& simulation, double wa
   emit(emitter, "momentum", momentum_of(simulation.model(), state));
   emit(emitter, "angular_momentum", angular_momentum_of(simulation.model(), state));
   emitter << YAML::Key << "plan" << YAML::Value << plan;
+  emitter << YAML::Key << "choice" << YAML::Value;
+  write_choice(emitter, choice);
   emitter << YAML::EndMap;
   stream << emitter.c_str() << "\n";
 }

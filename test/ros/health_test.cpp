@@ -86,6 +86,16 @@ TEST(HealthOfTheCloth, IsGoodWithinItsLimits)
   EXPECT_EQ(values["worst strain"], "0.05");
   EXPECT_EQ(values["strain limit"], "0.1");
   EXPECT_EQ(values["stability margin"], "1.25");
+  EXPECT_EQ(values["asleep since (s)"], "awake");
+}
+
+TEST(HealthOfTheCloth, SaysSinceWhenItSleeps)
+{
+  Condition condition = good();
+  condition.asleep_since = 2.5;
+  const auto status = status_of(report_cloth, condition);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(values_of(status)["asleep since (s)"], "2.5");
 }
 
 TEST(HealthOfTheCloth, NeedsNoLimits)

@@ -14,9 +14,11 @@ namespace
 
 const char* const four_by_five = "cloth: {rows: 4, cols: 5}";
 
+/// Nothing is tried unless the solver is given.
 std::vector<std::string> lines_of(const std::string& yaml)
 {
-  const Plan plan = make_plan(scene_of("{" + yaml + "}"));
+  const bool has_solver = yaml.find("solver:") != std::string::npos;
+  const Plan plan = make_plan(scene_of("{" + yaml + (has_solver ? "}" : ", solver: {method: velocity_verlet}}")));
   return describe(plan, build_simulation(plan));
 }
 
@@ -82,8 +84,8 @@ TEST(Plan, DoesNotRunWhatItLeavesOut)
 TEST(Plan, HasALineForEveryPartOnceAndInOrder)
 {
   const std::vector<std::string> parts{
-    "structural springs", "shear springs", "flex springs", "gravity", "viscous damping", "wind",
-    "strain limit",       "pins",          "start",        "method",  "threads",         "time step"
+    "structural springs", "shear springs", "flex springs", "internal damping", "gravity", "viscous damping", "wind",
+    "strain limit",       "pins",          "start",        "method",           "sleep",   "threads",         "time step"
   };
   const std::vector<std::string> lines = lines_of(four_by_five);
   ASSERT_EQ(lines.size(), parts.size());
@@ -105,11 +107,40 @@ TEST(Plan, SaysWhereTheSheetStartsAndHoldsIt)
   EXPECT_THROW(make_plan(scene_of("{cloth: {start: catenary}}")), SceneError);
 }
 
-TEST(Plan, TakesVelocityVerletForAutoAndSaysThatTheToleranceIsNotUsed)
+TEST(Plan, OfAutoSaysHowExactAndHowDearItIs)
 {
-  EXPECT_EQ(make_plan(scene_of("")).method, find_method("velocity_verlet"));
-  EXPECT_EQ(line_of("method", "solver: {tolerance: 0.25}"),
-            "method: kept, velocity_verlet, which is what auto takes; the tolerance of 0.25 m is not used yet");
+  const std::string line = line_of("method", std::string(four_by_five) + ", solver: {tolerance: 0.25}");
+  EXPECT_TRUE(
+      has(line, { "method: kept, ", " at steps of ", " s errs by ", " m over 1.0 s for ", " s of work a second" }));
+}
+
+TEST(Plan, TriesPartsUnlessTheSceneIsToBeModelledInFull)
+{
+  const std::string sheet = "cloth: {rows: 16, cols: 16}, solver: {method: auto, tolerance: 1.0e-2}, ";
+  const char* const tried = "without, the answer changes by ";
+  EXPECT_TRUE(has(line_of("shear springs", sheet + "plan: auto"), { tried }));
+  EXPECT_FALSE(has(line_of("shear springs", sheet + "plan: full"), { tried }));
+  EXPECT_TRUE(make_plan(scene_of("{" + sheet + "plan: full}")).choice.left_out.empty());
+}
+
+TEST(Plan, OfAnEarlierChoiceIsTheSame)
+{
+  const SceneParams scene = scene_of("{cloth: {rows: 16, cols: 16}, solver: {tolerance: 1.0e-2}}");
+  const Plan first = make_plan(scene);
+  Choice choice = first.choice;
+  choice.left_out = { "wind", "internal damping" };
+  choice.method = "rk4";
+  choice.time_step = 1e-3;
+  const Plan second = make_plan(scene, choice);
+  EXPECT_EQ(second.method, find_method("rk4"));
+  EXPECT_EQ(second.scene.air.wind_coupling, 0.0);
+  EXPECT_EQ(second.scene.sheet.structural.damping, 0.0);
+  EXPECT_EQ(second.asked.air.wind_coupling, 1.0);
+  Simulation one = build_simulation(make_plan(scene, first.choice));
+  Simulation other = build_simulation(first);
+  one.advance_to(0.2);
+  other.advance_to(0.2);
+  EXPECT_EQ(one.state().positions, other.state().positions);
 }
 
 TEST(Plan, TakesEveryMethodThatIsNamed)
@@ -125,15 +156,16 @@ TEST(Plan, TakesEveryMethodThatIsNamed)
 
 TEST(Plan, SaysWhichStepIsTakenAndWhy)
 {
-  const Plan plan = make_plan(scene_of(std::string("{") + four_by_five + "}"));
+  const Plan plan = make_plan(scene_of(std::string("{") + four_by_five + ", solver: {method: velocity_verlet}}"));
   const Simulation simulation = build_simulation(plan);
   const std::string step = describe(plan, simulation).back();
   EXPECT_TRUE(has(step, { "time step: ", " s, 0.9 of the stability limit of velocity_verlet, " }));
   const YAML::Node number = YAML::Load(step.substr(11, step.find(" s,") - 11));
   EXPECT_NEAR(number.as<double>(), 0.9 * simulation.stability_limit(), 1e-4 * number.as<double>());
 
-  EXPECT_TRUE(has(line_of("time step", std::string(four_by_five) + ", solver: {time_step: 1.0e-3}"),
-                  { "time step: 0.001 s, as the scene says; the stability limit of velocity_verlet is 0.0" }));
+  EXPECT_TRUE(
+      has(line_of("time step", std::string(four_by_five) + ", solver: {method: velocity_verlet, time_step: 1.0e-3}"),
+          { "time step: 0.001 s, as the scene says; the stability limit of velocity_verlet is 0.0" }));
   const std::string free =
       "springs: {structural: {stiffness: 0}, shear: {stiffness: 0}, flex: {stiffness: 0}}, "
       "air: {viscous_damping: 0, wind_coupling: 0}";
@@ -154,8 +186,8 @@ TEST(ConvergenceWarning, CountsTheStepsThatWereNotSolved)
 
 TEST(TimeStepWarning, HasBothNumbersBeyondTheLimitAndNothingWithinIt)
 {
-  const std::string scene = std::string("{") + four_by_five + ", solver: {time_step: ";
-  const Simulation chosen = build_simulation(make_plan(scene_of(std::string("{") + four_by_five + "}")));
+  const std::string scene = std::string("{") + four_by_five + ", solver: {method: velocity_verlet, time_step: ";
+  const Simulation chosen = build_simulation(make_plan(scene_of(scene + "0}}")));
   EXPECT_EQ(time_step_warning(chosen), "");
   const double limit = chosen.stability_limit();
   const Simulation within = build_simulation(make_plan(scene_of(scene + format_number(0.99 * limit) + "}}")));
@@ -188,6 +220,21 @@ TEST(LivePlan, KeepsTheStartAndTakesTheRest)
     EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& text) { return has(text, { line }); }))
         << line;
   }
+}
+
+TEST(LivePlan, BringsBackWhatATrialLeftOut)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}}");
+  Choice choice;
+  choice.left_out = { "flex springs" };
+  choice.method = "symplectic_euler";
+  const Plan before = make_plan(scene, choice);
+  EXPECT_EQ(before.scene.sheet.flex.stiffness, 0.0);
+  scene.air.viscous_damping = 0.5;
+  const Plan after = live_plan(before, scene);
+  EXPECT_EQ(after.scene.sheet.flex.stiffness, scene.sheet.flex.stiffness);
+  EXPECT_EQ(after.method, before.method);
+  EXPECT_TRUE(after.choice.left_out.empty());
 }
 
 TEST(LivePlan, ChangedGustsAreThoseThatTheirSceneWouldHaveHadAtThatTime)

@@ -60,6 +60,8 @@ struct Pin
   Eigen::Vector3d middle(double time) const;
   /// The largest distance of a node from their middle, m.
   double reach() const;
+  /// Whether it oscillates, or is on its way at `time`; else it stays where it is until it is sent elsewhere.
+  bool moves_at(double time) const;
 };
 
 /// The pins of one sheet: prescribed motion, exact at every time that a method asks for; no springs are involved.

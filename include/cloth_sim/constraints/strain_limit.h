@@ -58,6 +58,8 @@ public:
   {
     return properties_;
   }
+  /// The strain of a spring that the limit holds, of a sheet at rest, for pins as they were last; 0: there is no limit.
+  double held_strain() const;
 
   /// Takes over what `before`, another limit of the same sheet, has found out about it, so that fewer passes do.
   void go_on_from(const StrainLimit& before);
@@ -88,6 +90,7 @@ public:
 private:
   static constexpr double room_of_reach = 1.05;
 
+  double strain_in_force() const;
   void find_reach(const ClothModel& model, const Pins& pins, const Vectors& positions);
 
   StrainLimitProperties properties_;

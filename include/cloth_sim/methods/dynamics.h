@@ -10,6 +10,7 @@
 #include "cloth_sim/forces/springs.h"
 #include "cloth_sim/model/cloth_model.h"
 #include "cloth_sim/model/node_range.h"
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/threads/crew.h"
 
 namespace cloth
@@ -119,14 +120,23 @@ void Dynamics::for_each_band(Work&& work) const
     work(all_nodes(model_));
     return;
   }
+  const PartCalls calls_before = part_calls();
+  PartCalls calls_of_first;  // whichever thread does it
   const auto share = [&](int thread) {
     const NodeRange band = band_of(thread);
+    const PartCalls begin = part_calls();
     if (band.size() > 0)
     {
       work(band);
     }
+    if (thread == 0)
+    {
+      calls_of_first.add_difference(begin, part_calls());
+    }
   };
   crew_->run(share);
+  part_calls() = calls_before;
+  part_calls().add_difference({}, calls_of_first);
 }
 
 template <typename Done>

@@ -113,6 +113,7 @@ struct MethodRow
   EnergyDrift energy_drift;
   bool conserves_angular_momentum;  ///< exactly, of a free undamped network (linear momentum: all do)
   bool is_adaptive;                 ///< takes steps of its own choice, up to the given one
+  bool iterates_locally;            ///< so often a step: on a finer grid that reaches less far
   int force_evaluations;            ///< a step; of a method that solves, the least
   int linear_solves;                ///< a step; of a method that solves, the least
   const char* failure;              ///< what is seen where it fails

@@ -24,18 +24,33 @@ struct PlanLine
 struct Plan
 {
   SceneParams scene;  ///< without what is left out
+  SceneParams asked;  ///< with it
   const MethodRow* method = nullptr;
   Choice choice;
-  ClothState start;  ///< the sheet at time 0
+  bool keeps_within_limit = false;  ///< the step was chosen, and is shortened where the stability limit asks for it
+  ClothState start;                 ///< the sheet at time 0
+  bool start_is_settled = false;
+  double sleep_distance = 0.0;  ///< m, see SimulationSetup
   std::vector<PlanLine> lines;
 };
 
 /// Decides what the scene needs. Throws SceneError where its parts do not fit together (pins outside the sheet, a
-/// node in two pins, a start that the scene does not have). A settled start is worked out here.
+/// node in two pins, a start that the scene does not have). A settled start is worked out here, and where solver.method
+/// is auto, trial runs on a coarser grid find out which method, which step and, where plan is auto, which parts meet
+/// solver.tolerance at the least cost; what steps cost is measured once on a machine and kept in a file.
 Plan make_plan(const SceneParams& scene);
 
 /// The same of a sheet that starts as `start` says, not as the scene does; pins hold their nodes where that has them.
 Plan make_plan(const SceneParams& scene, const SceneStart& start);
+
+/// The same with a choice that was made before: nothing is tried. Throws SceneError where it names a method or a part
+/// that there is none of.
+Plan make_plan(const SceneParams& scene, const Choice& choice);
+
+/// In words the coarsest grid that would do for a plan's scene, found by runs on grids up to its own, and what that
+/// would save; or that there is none. Takes longer than the plan. Throws SceneError where such a grid cannot be
+/// simulated.
+std::string described_grid(const Plan& plan);
 
 /// The simulation of a plan, at time 0.
 Simulation build_simulation(const Plan& plan);

@@ -14,6 +14,7 @@ struct SceneStart
 {
   ClothState state;
   std::string description;
+  bool is_settled = false;  ///< `settle` found it
 };
 
 /// The start of a scene whose sheet is `model`, in the shape that `cloth.start` names: `start_state` (flat);

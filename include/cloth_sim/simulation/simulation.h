@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,8 +13,10 @@
 #include "cloth_sim/methods/dynamics.h"
 #include "cloth_sim/methods/method.h"
 #include "cloth_sim/model/cloth_state.h"
+#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/simulation/divergence_guard.h"
 #include "cloth_sim/simulation/energy.h"
+#include "cloth_sim/simulation/rest_watch.h"
 #include "cloth_sim/simulation/stability_watch.h"
 
 namespace cloth
@@ -31,8 +34,11 @@ struct SimulationSetup
   MethodSettings method_settings;
   double time_step = 0.0;  ///< s; 0: 0.9 of the stability limit as it is, or 1/240 where there is none; of an adaptive
                            ///< method the largest step, 0: none
+  bool keeps_within_limit = false;  ///< a given step is shortened to 0.9 of the stability limit where it is longer
   int threads = 1;         ///< the most that share a step; 0: those of the machine, `chosen_threads` at most
   ClothState start;
+  bool start_is_settled = false;  ///< `settle` found it, and nothing was changed since
+  double sleep_distance = 0.0;    ///< m; it sleeps where going on would move no node farther; 0: never
 };
 
 /// A force and its torque.
@@ -66,20 +72,21 @@ public:
     std::uint64_t rejected_steps = 0;     ///< tried by an adaptive method and thrown away
     std::uint64_t unconverged_steps = 0;  ///< whose equations the method did not solve to its bound
     std::uint64_t limit_sweeps = 0;       ///< passes of the strain limit over the springs
+    PartCalls calls;                      ///< of the parts of the model, in steps
   };
 
   /// Throws std::invalid_argument where the setup's sizes do not fit together or no method is named.
   explicit Simulation(SimulationSetup setup);
 
-  /// The same cloth as it is now with the properties of `setup`, whose pins and start count for nothing: state, pins,
-  /// counters and a divergence carry on; what is stretched beyond a lower strain limit is shortened, and gains no
+  /// The same cloth as it is now, awake, with the properties of `setup`, whose pins and start count for nothing: state,
+  /// pins, counters and a divergence carry on; what is stretched beyond a lower strain limit is shortened, and gains no
   /// speed. Its step never exceeds the stability limit, also where one is given. Throws what the constructor throws.
   Simulation gone_over_to(SimulationSetup setup) const;
 
   /// Advances to `time` (s) in equal steps, as few as the time step allows; where no step is given and the stability
   /// limit falls on the way, the rest of the way is divided anew. An adaptive method divides the way itself. False: the
   /// simulation has diverged, and holds the last good state. `stops`, where given, is asked every now and then; once it
-  /// says so the cloth stays where it has got to.
+  /// says so the cloth stays where it has got to. A cloth that sleeps is at `time` at once.
   bool advance_to(double time, const std::function<bool()>& stops = {});
 
   const ClothModel& model() const
@@ -114,6 +121,13 @@ public:
   {
     return divergence_;
   }
+  /// Since when it has been asleep, s: it was found at rest (RestWatch), and its velocities are 0. Time goes on without
+  /// steps and without a change of any position, until a request that changes something or measures reactions; the
+  /// first step goes on from here. Nothing: it is awake.
+  const std::optional<double>& asleep_since() const
+  {
+    return asleep_since_;
+  }
   /// The divergence in words: when, which node, the step and the stability limit, what to change. Empty: none.
   std::string divergence_report() const;
 
@@ -137,7 +151,7 @@ public:
   /// no time has passed.
   Wrench reaction_on(const Pin& pin) const;
 
-  // Requests. The state carries on.
+  // Requests. The state carries on. What asks for nothing that is not so already does not wake the cloth.
 
   void set_wind(const Eigen::Vector3d& wind);
   /// Holds `nodes` where they are. They leave the pins that held them before.
@@ -162,14 +176,18 @@ private:
   void keep_or_restore();
   void changed_from_outside();
   void shorten_at_no_speed();
+  void sleep_where_at_rest();
+  void wake();
+  bool is_there(const Pin& pin, const Eigen::Isometry3d& placement) const;
   void pins_sent_elsewhere();
 
   Dynamics dynamics_;
   StrainLimit strain_limit_;
   const MethodRow* method_row_;
+  MethodSettings method_settings_;
   std::unique_ptr<Method> method_;
   double given_time_step_;
-  bool keeps_within_limit_ = false;  ///< a given step is cut to what is stable
+  double given_share_ = std::numeric_limits<double>::infinity();  ///< of the stability limit, which a given step keeps
   double last_step_ = 0.0;
   ClothState state_;
   ClothState last_good_;
@@ -177,6 +195,8 @@ private:
   std::optional<Divergence> divergence_;
   Counters counters_;
   mutable StabilityWatch stability_watch_;
+  RestWatch rest_watch_;
+  std::optional<double> asleep_since_;
 
   bool measures_reactions_ = false;
   double measured_since_ = 0.0;

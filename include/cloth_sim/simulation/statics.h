@@ -34,4 +34,12 @@ struct StaticsReport
 StaticsReport settle(const ClothModel& model, const Pins& pins, const Eigen::Vector3d& gravity, double max_strain,
                      double tolerance, Vectors& positions);
 
+/// Whether `settle` with a small tolerance would move no node of `positions` (m) by more than `distance` (m). False
+/// also where it would take long to find that out.
+bool is_near_rest(const ClothModel& model, const Pins& pins, const Eigen::Vector3d& gravity, double max_strain,
+                  double distance, const Vectors& positions);
+
+/// Whether springs join every node to a pin.
+bool holds_every_node(const ClothModel& model, const Pins& pins);
+
 }  // namespace cloth

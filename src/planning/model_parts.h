@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cloth_sim/scene/scene_params.h"
+
+namespace cloth
+{
+
+/// A part of the model that a sheet may do without.
+struct ModelPart
+{
+  const char* name;  ///< as in the plan
+  bool (*is_there)(const SceneParams& scene);
+  void (*take_out)(SceneParams& scene);
+};
+
+/// Those that are dear enough to be worth a trial.
+const std::vector<ModelPart>& optional_parts();
+
+/// The scene without the parts of these names.
+SceneParams without(SceneParams scene, const std::vector<std::string>& names);
+
+}  // namespace cloth

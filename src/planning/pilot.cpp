@@ -1,0 +1,59 @@
+#include "pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cloth_sim/scene/plan.h"
+
+namespace cloth
+{
+
+Simulation simulation_of(const StartedScene& scene, const Stepping& stepping)
+{
+  SceneParams params = scene.params;
+  params.solver.method = stepping.method;
+  params.solver.time_step = stepping.time_step;
+  params.solver.tolerance = stepping.tolerance;
+  params.solver.iterations = stepping.iterations;
+  Plan plan = make_plan(params, scene.start);
+  plan.keeps_within_limit = true;
+  return build_simulation(plan);
+}
+
+Motion motion_of(const StartedScene& scene, const Stepping& stepping, std::uint64_t most_steps, int samples)
+{
+  Simulation simulation = simulation_of(scene, stepping);
+  const double begin = simulation.state().time;
+  const auto takes_too_long = [&] {
+    return simulation.counters().steps + simulation.counters().rejected_steps > most_steps;
+  };
+  Motion motion;
+  for (int s = 1; s <= samples && !takes_too_long(); ++s)
+  {
+    const double time = begin + Motion::horizon * s / Motion::samples;
+    if (!simulation.advance_to(time, takes_too_long) || simulation.state().time < time)
+    {
+      break;
+    }
+    motion.positions.push_back(simulation.state().positions);
+  }
+  motion.counters = simulation.counters();
+  return motion;
+}
+
+double distance(const Motion& one, const Motion& other, int samples)
+{
+  if (static_cast<int>(std::min(one.positions.size(), other.positions.size())) < samples)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  double sum = 0.0;
+  for (int s = 0; s < samples; ++s)
+  {
+    sum += (one.positions[s] - other.positions[s]).squaredNorm() / static_cast<double>(one.positions[s].rows());
+  }
+  return std::sqrt(sum / samples);
+}
+
+}  // namespace cloth

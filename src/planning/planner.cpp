@@ -1,0 +1,85 @@
+#include "planner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloth_sim/scene/scene_reader.h"
+
+#include "model_parts.h"
+#include "step_search.h"
+#include "trials.h"
+
+namespace cloth
+{
+namespace
+{
+
+/// Parts are left out where that changes the answer by less than this part of the tolerance.
+constexpr double trial_share = 0.25;
+/// Method and step may err by this part of it.
+constexpr double step_share = 0.5;
+
+struct LeftOut
+{
+  std::vector<std::string> parts;
+  double change = 0.0;  ///< of the answer without all of them, m
+};
+
+/// What changes the answer least goes first; what is left out stays within its share together with the rest.
+LeftOut parts_to_leave_out(Trials& trials, double allowed, std::vector<TriedPart>& tried)
+{
+  for (const ModelPart& part : optional_parts())
+  {
+    if (part.is_there(trials.params()))
+    {
+      tried.push_back({ part.name, trials.change_without({ part.name }) });
+    }
+  }
+  std::vector<TriedPart> by_change = tried;
+  std::stable_sort(by_change.begin(), by_change.end(),
+                   [](const TriedPart& one, const TriedPart& other) { return one.change < other.change; });
+  LeftOut left_out;
+  for (const TriedPart& part : by_change)
+  {
+    std::vector<std::string> parts = left_out.parts;
+    parts.push_back(part.part);
+    const double change = left_out.parts.empty() ? part.change : trials.change_without(parts);
+    if (!(part.change < allowed) || !(change < allowed))
+    {
+      break;
+    }
+    left_out = { parts, change };
+  }
+  return left_out;
+}
+
+}  // namespace
+
+Planned plan_by_trial(const StartedScene& scene, StepCosts& costs)
+{
+  const double tolerance = scene.params.solver.tolerance;
+  StartedScene planned = scene;
+  Planned result;
+  Trials trials(scene, costs);
+  LeftOut left_out;
+  if (scene.params.plan == "auto" && trials.is_coarser())
+  {
+    left_out = parts_to_leave_out(trials, trial_share * tolerance, result.tried);
+    planned.params = without(planned.params, left_out.parts);
+    trials.leave_out(left_out.parts);
+  }
+  StepSearch search(planned, trials, step_share * tolerance, costs);
+  search.run();
+  if (!search.best())
+  {
+    throw SceneError("solver.method: auto, but no method has a stable step for this scene");
+  }
+  const Stepping& stepping = search.best()->stepping;
+  result.choice = { left_out.parts, stepping.method,     stepping.time_step,
+                    tolerance,      stepping.iterations, std::hypot(search.error(), left_out.change),
+                    search.cost() };
+  result.reason = search.reason(tolerance);
+  return result;
+}
+
+}  // namespace cloth
