@@ -40,7 +40,6 @@ cloth_add_test(constraints
   test/constraints/spring_tensions_test.cpp
   test/constraints/strain_limit_test.cpp
 )
-target_include_directories(test_constraints PRIVATE src/constraints)
 cloth_add_test(methods
   ${agreement_test}
   test/methods/allocations_test.cpp

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <vector>
-
 #include "cloth_sim/model/cloth_model.h"
 
 #include "shortening.h"
 #include "tension_passes.h"
-#include "tether_lengths.h"
 
 namespace cloth
 {
@@ -27,10 +24,6 @@ namespace cloth
 /// step are the first guess at the next one's, as p ~ h^2 times a force that changes slowly; most of the work is done
 /// by then, whatever the grid. As vectors they keep the guess stable: it is a correction that was right, not a force
 /// along springs that have turned.
-///
-/// Where the sheet hangs from a few nodes, the tethers from there to all others (Kim, Chentanez and Mueller-Fischer,
-/// "Long range attachments", 2012) are springs of this kind too, with tensions of their own: they change nothing of the
-/// correction, and bring it about in fewer passes.
 class SpringTensions : public Shortening
 {
 public:
@@ -41,11 +34,7 @@ public:
   void go_on_from(const Shortening& before) override;
 
 private:
-  void use_held(const std::vector<int>& held);
-
-  TetherLengths lengths_;
   TensionPasses<double> passes_;
-  std::vector<int> held_;
 };
 
 }  // namespace cloth

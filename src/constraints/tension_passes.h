@@ -27,8 +27,10 @@ enum class SpringLengths
   too_long  ///< longer than the limit and its tolerance allow: there must be a next pass
 };
 
-/// A spring from every node to one that is held, as long as the shortest way along springs between them. It forbids
-/// nothing that they allow, but says in one pass what they pass on from one to the next.
+/// A spring from every node to one that is held, as long as the shortest way along springs between them (Kim, Chentanez
+/// and Mueller-Fischer, "Long range attachments", 2012). It forbids nothing that they allow, and says in one pass what
+/// they pass on from one to the next; but which of both is to pull is open, so that the last digits of a correction from
+/// nothing take more passes than without.
 template <typename Scalar>
 struct Tether
 {
@@ -413,17 +415,6 @@ void TensionPasses<Scalar>::go_on_from(const TensionPasses& before)
     for (size_t d = 0; d < 3; ++d)
     {
       std::copy_n(theirs[d], run.springs.n, tensions[d]);
-    }
-  }
-  for (Tethered& tethered : tethers_)
-  {
-    const auto same = std::find_if(before.tethers_.begin(), before.tethers_.end(), [&](const Tethered& candidate) {
-      return candidate.tether.anchor == tethered.tether.anchor;
-    });
-    if (same != before.tethers_.end())
-    {
-      tethered.tensions = same->tensions;
-      tethered.is_taut = same->is_taut;
     }
   }
 }

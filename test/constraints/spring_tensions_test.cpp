@@ -8,9 +8,7 @@
 #include "cloth_sim/methods/method.h"
 #include "cloth_sim/simulation/energy.h"
 #include "cloth_sim/simulation/simulation.h"
-#include "shortening.h"
 #include "support.h"
-#include "tether_lengths.h"
 
 namespace cloth
 {
@@ -131,44 +129,6 @@ TEST(SpringTensions, TakeAngularMomentumFromASpinningSheetInFirstOrderAloneAsPla
   EXPECT_GT(loss, 0.01);
   EXPECT_NEAR(spin_loss(4000, LimitSolver::tensions) / loss, 0.5, 0.1);
   EXPECT_LT(loss, 2.0 * spin_loss(2000, LimitSolver::plain_sweeps));
-}
-
-TEST(Tethers, SparePassesAndLeaveTheCorrectionWhatItIs)
-{
-  SheetProperties sheet;
-  sheet.rows = 16;
-  sheet.cols = 16;
-  const ClothModel model = make_sheet(sheet);
-  const std::vector<int> held = { 0, 15 };
-  Eigen::VectorXd inverse_masses = Eigen::VectorXd::Zero(model.nodes() + row_padding);
-  inverse_masses.head(model.nodes()) = model.masses.cwiseInverse();
-  Vectors drawn = Vectors::Zero(model.nodes() + row_padding, 3);
-  drawn.topRows(model.nodes()) = model.rest_positions;
-  drawn.col(2) *= 1.1;
-  for (const int node : held)
-  {
-    inverse_masses[node] = 0.0;
-  }
-  const auto shorten = [&](bool has_tethers, Vectors& positions) {
-    positions = drawn;
-    TensionPasses<double> passes(limited_batches(model), runs_by_rows(limited_batches(model), model.rows),
-                                 model.nodes());
-    if (has_tethers)
-    {
-      passes.use_tethers(TetherLengths(model).tethers<double>(held, model.nodes(), [](int node) { return node; }));
-    }
-    const StrainLimit::Report report = passes.shorten(inverse_masses.data(), limit, 100000, columns_of(positions));
-    EXPECT_TRUE(report.reached);
-    EXPECT_LE(max_strain(model, positions), limit * (1.0 + StrainLimit::tolerance) + 1e-12);
-    return report.sweeps;
-  };
-  Vectors with;
-  Vectors without;
-  EXPECT_LT(2 * shorten(true, with), shorten(false, without));
-  const auto correction = [&](const Vectors& positions) {
-    return (positions - drawn).topRows(model.nodes()).rowwise().squaredNorm().dot(model.masses);
-  };
-  EXPECT_NEAR(correction(with), correction(without), 0.01 * correction(without));
 }
 
 }  // namespace
