@@ -24,6 +24,7 @@ add_library(cloth_bench_parts STATIC
   bench/cloth_bench/errors.cpp
   bench/cloth_bench/first_order_system.cpp
   bench/cloth_bench/journal.cpp
+  bench/cloth_bench/line_file.cpp
   bench/cloth_bench/measurement.cpp
   bench/cloth_bench/one_core.cpp
   bench/cloth_bench/own_solver.cpp
@@ -36,6 +37,7 @@ add_library(cloth_bench_parts STATIC
   bench/cloth_bench/solver.cpp
   bench/cloth_bench/spatial.cpp
   bench/cloth_bench/tables.cpp
+  bench/cloth_bench/timed_outcome.cpp
   bench/cloth_bench/yardstick.cpp
 )
 target_sources(cloth_bench_parts PRIVATE ${commit_source})

@@ -24,7 +24,9 @@ endif()
 cloth_add_test(model
   test/model/cloth_model_test.cpp
   test/model/inverse_root_test.cpp
+  test/model/spring_layout_test.cpp
 )
+target_include_directories(test_model PRIVATE src/model)
 cloth_add_test(forces
   test/forces/air_test.cpp
   test/forces/gravity_test.cpp
@@ -43,6 +45,7 @@ cloth_add_test(methods
   test/methods/allocations_test.cpp
   test/methods/energy_drift_test.cpp
   test/methods/exact_motion_test.cpp
+  test/methods/mixed_precision_test.cpp
   test/methods/multigrid_test.cpp
   test/methods/order_test.cpp
   test/methods/spectrum_test.cpp
@@ -96,12 +99,15 @@ add_dependencies(test_tools cloth_run)
 cloth_add_test(bench
   test/bench/bench_test.cpp
   test/bench/cloth_bench_test.cpp
+  test/bench/drawn_scene_test.cpp
   test/bench/errors_test.cpp
+  test/bench/plan_trial_test.cpp
   test/bench/problem_test.cpp
   test/bench/reference_test.cpp
+  test/bench/search_test.cpp
   test/bench/slopes_test.cpp
 )
-target_link_libraries(test_bench cloth_bench_parts)
+target_link_libraries(test_bench plan_matrix_parts)
 target_compile_definitions(test_bench PRIVATE CLOTH_BENCH="$<TARGET_FILE:cloth_bench>")
 add_dependencies(test_bench cloth_bench)
 

@@ -9,6 +9,7 @@
 #include "own_solver.h"
 #include "reference_file.h"
 #include "spatial.h"
+#include "timed_outcome.h"
 
 namespace cloth
 {
@@ -25,35 +26,6 @@ constexpr int finest_factor = 4;
 bool has_limit(const BenchScene& scene)
 {
   return scene.params.strain_limit.max_strain > 0.0;
-}
-
-Outcome measured(const Solver& solver, const Problem& problem, double value, double most_seconds, double least_timed)
-{
-  Outcome outcome = solver.run(problem, value, most_seconds);
-  double sum = outcome.seconds_per_second;
-  double yardsticks = outcome.seconds_per_second / outcome.yardstick;
-  int runs = 1;
-  const bool is_complete = outcome.status == Status::ok || outcome.status == Status::not_converged;
-  for (double timed = outcome.seconds; is_complete && timed < least_timed; ++runs)
-  {
-    const Outcome again = solver.run(problem, value, most_seconds);
-    sum += again.seconds_per_second;
-    yardsticks += again.seconds_per_second / again.yardstick;
-    timed += std::max(again.seconds, 1e-6);
-  }
-  outcome.seconds_per_second = sum / runs;
-  outcome.yardstick = yardsticks > 0.0 ? sum / yardsticks : outcome.yardstick;
-  return outcome;
-}
-
-void take(const Outcome& outcome, Measurement& measurement)
-{
-  measurement.status = name_of(outcome.status);
-  measurement.seconds = outcome.seconds;
-  measurement.seconds_per_second = outcome.seconds_per_second;
-  measurement.yardstick = outcome.yardstick;
-  measurement.force_evaluations = outcome.force_evaluations;
-  measurement.linear_solves = outcome.linear_solves;
 }
 
 /// The same folder, there and with nothing in it that comes from elsewhere.
@@ -282,7 +254,8 @@ Measurement Bench::first_run(const Solver& solver, const Problem& problem, doubl
   }
   else
   {
-    const Outcome outcome = measured(solver, problem, value, settings_.most_seconds, settings_.least_timed);
+    const auto run = [&] { return solver.run(problem, value, settings_.most_seconds); };
+    const Outcome outcome = timed_outcome(run, settings_.least_timed);
     take(outcome, measurement);
     if (measurement.is_complete())
     {
@@ -310,7 +283,8 @@ void Bench::repeat_in_turn(const Problem& problem, const std::vector<std::pair<c
       const double value = std::strtod(row.value.c_str(), nullptr);
       Measurement again = row;
       again.repeat = repeat;
-      take(measured(*solver, problem, value, as_long_as_it_takes, settings_.least_timed), again);
+      const auto run = [&solver = *solver, &problem, value] { return solver.run(problem, value, as_long_as_it_takes); };
+      take(timed_outcome(run, settings_.least_timed), again);
       add(again);
     }
   }

@@ -1,18 +1,15 @@
 #pragma once
 
-#include <chrono>
-
-#include <time.h>
-
+#include "processor_time.h"
 #include "solver.h"
 #include "yardstick.h"
 
 namespace cloth
 {
 
-/// Times a run interval by interval. The first one counts for nothing but the time left: what a solver makes once, it
-/// makes there, and it fills the caches. How long a run may take goes by the processor's time, so that other programs
-/// do not decide which runs there are. The yardstick is laid beside every interval.
+/// Times a run interval by interval, in the processor's time, so that other programs decide neither what it costs nor
+/// which runs there are. The first interval counts for nothing but the time left: what a solver makes once, it makes
+/// there, and it fills the caches. The yardstick is laid beside every interval.
 class IntervalClock
 {
 public:
@@ -23,9 +20,9 @@ public:
   template <typename Work>
   void time(Work&& work)
   {
-    const WallClock::time_point begin = WallClock::now();
+    const double begin = processor_seconds();
     work();
-    const double seconds = std::chrono::duration<double>(WallClock::now() - begin).count();
+    const double seconds = processor_seconds() - begin;
     const double length = Yardstick::shared().length();
     if (intervals_++ > 0)
     {
@@ -49,15 +46,6 @@ public:
   }
 
 private:
-  using WallClock = std::chrono::steady_clock;
-
-  static double processor_seconds()
-  {
-    timespec now{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  }
-
   const Problem& problem_;
   double most_seconds_;
   double begin_ = processor_seconds();

@@ -23,7 +23,7 @@ struct Measurement
   int nodes = 0;
   Errors errors;                    ///< not a number where it does not apply
   double seconds = 0.0;             ///< of processor time
-  double seconds_per_second = 0.0;  ///< wall time per simulated second
+  double seconds_per_second = 0.0;  ///< processor time per simulated second
   double yardstick = 1.0;           ///< its length meanwhile, s
   double force_evaluations = 0.0;   ///< per simulated second
   double linear_solves = 0.0;       ///< likewise

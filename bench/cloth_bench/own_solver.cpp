@@ -42,6 +42,30 @@ std::vector<double> steps_from(double first, const Problem& problem, double rati
 
 }  // namespace
 
+Outcome outcome_of(Simulation& simulation, const Problem& problem, double most_seconds)
+{
+  Outcome outcome;
+  IntervalClock clock(problem, most_seconds);
+  for (int s = 0; s < Problem::samples && outcome.status == Status::ok; ++s)
+  {
+    const double end = problem.time_of(s);
+    clock.time([&] { simulation.advance_to(end, [&] { return clock.is_up(); }); });
+    outcome.samples.push_back(simulation.state());
+    outcome.status = simulation.divergence()                   ? Status::unstable :
+                     simulation.state().time < end             ? Status::too_slow :
+                     s + 1 < Problem::samples && clock.is_up() ? Status::too_slow :
+                                                                 Status::ok;
+  }
+  clock.report(outcome);
+  const Simulation::Counters& counters = simulation.counters();
+  outcome.force_evaluations = static_cast<double>(counters.force_evaluations) / problem.horizon;
+  outcome.linear_solves = static_cast<double>(counters.linear_solves) / problem.horizon;
+  const bool is_unsolved =
+      static_cast<double>(counters.unconverged_steps) > unconverged_part * static_cast<double>(counters.steps);
+  outcome.status = outcome.status == Status::ok && is_unsolved ? Status::not_converged : outcome.status;
+  return outcome;
+}
+
 std::vector<double> tolerances()
 {
   std::vector<double> ladder;
@@ -76,26 +100,7 @@ Outcome OwnSolver::run(const Problem& problem, double value, double most_seconds
                            setting_ == Setting::iterations ? step_of_iterations :
                                                              0.0;
   Simulation simulation = simulation_of(problem, row_.name, time_step, settings);
-  Outcome outcome;
-  IntervalClock clock(problem, most_seconds);
-  for (int s = 0; s < Problem::samples && outcome.status == Status::ok; ++s)
-  {
-    const double end = problem.time_of(s);
-    clock.time([&] { simulation.advance_to(end, [&] { return clock.is_up(); }); });
-    outcome.samples.push_back(simulation.state());
-    outcome.status = simulation.divergence()                   ? Status::unstable :
-                     simulation.state().time < end             ? Status::too_slow :
-                     s + 1 < Problem::samples && clock.is_up() ? Status::too_slow :
-                                                                 Status::ok;
-  }
-  clock.report(outcome);
-  const Simulation::Counters& counters = simulation.counters();
-  outcome.force_evaluations = static_cast<double>(counters.force_evaluations) / problem.horizon;
-  outcome.linear_solves = static_cast<double>(counters.linear_solves) / problem.horizon;
-  const bool is_unsolved =
-      static_cast<double>(counters.unconverged_steps) > unconverged_part * static_cast<double>(counters.steps);
-  outcome.status = outcome.status == Status::ok && is_unsolved ? Status::not_converged : outcome.status;
-  return outcome;
+  return outcome_of(simulation, problem, most_seconds);
 }
 
 Solvers own_solvers()

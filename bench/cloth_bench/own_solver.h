@@ -31,6 +31,10 @@ private:
   Setting setting_;
 };
 
+/// Takes a simulation at time 0 through the problem's times; gives up as too slow after about `most_seconds` of
+/// processor time.
+Outcome outcome_of(Simulation& simulation, const Problem& problem, double most_seconds);
+
 /// Every method of the table by its step, or by its tolerance where it is adaptive; projective by its iterations too.
 Solvers own_solvers();
 

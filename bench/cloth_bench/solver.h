@@ -36,7 +36,7 @@ struct Outcome
   Status status = Status::ok;
   std::vector<ClothState> samples;  ///< at the problem's times; all of them only where the run came to its end
   double seconds = 0.0;             ///< of processor time, all in all
-  double seconds_per_second = 0.0;  ///< wall time per simulated second, without the first interval
+  double seconds_per_second = 0.0;  ///< processor time per simulated second, without the first interval
   double yardstick = 1.0;           ///< its length meanwhile, s
   double force_evaluations = 0.0;   ///< per simulated second
   double linear_solves = 0.0;       ///< likewise

@@ -7,9 +7,9 @@
 namespace cloth
 {
 
-/// How fast the machine is just now, by the time that a fixed piece of work takes: the forces on a small sheet, again
-/// and again. A core whose other hyperthread someone else uses, or whose frequency changes, slows down by half for
-/// seconds; a time in lengths of the yardstick does not.
+/// How fast the machine is just now, by the processor's time that a fixed piece of work takes: the forces on a small
+/// sheet, again and again. A core whose other hyperthread someone else uses, or whose frequency changes, slows down by
+/// half for seconds; a time in lengths of the yardstick does not.
 class Yardstick
 {
 public:
@@ -18,7 +18,7 @@ public:
   /// The one of this program.
   static Yardstick& shared();
 
-  /// What the work takes, s; measured again where that was done `freshness` ago or longer.
+  /// What the work takes, s of processor time; measured again where that was done `freshness` ago or longer.
   double length();
 
   /// About 20 times what the work takes.

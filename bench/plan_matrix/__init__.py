@@ -1,0 +1,1 @@
+"""What plan_matrix has measured: read, judged, drawn."""
