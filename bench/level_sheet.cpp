@@ -33,7 +33,7 @@ LevelSheet::LevelSheet(int nodes_a_side)
 }
 
 Simulation simulation_of(const LevelSheet& sheet, const StrainLimitProperties& limit, const char* method,
-                         double time_step)
+                         double time_step, const MethodSettings& settings)
 {
   SimulationSetup setup;
   setup.model = sheet.model;
@@ -44,7 +44,7 @@ Simulation simulation_of(const LevelSheet& sheet, const StrainLimitProperties& l
   setup.pins = { pin_of(sheet, "left", sheet.left), pin_of(sheet, "right", sheet.right) };
   setup.strain_limit = limit;
   setup.method = find_method(method);
-  setup.method_settings.iterations = 1;
+  setup.method_settings = settings;
   setup.time_step = time_step;
   return Simulation(std::move(setup));
 }

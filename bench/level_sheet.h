@@ -18,8 +18,10 @@ public:
   int right;
 };
 
+inline const MethodSettings one_iteration{ 1e-3, 1 };
+
 /// It in a simulation, in still air that drags.
 Simulation simulation_of(const LevelSheet& sheet, const StrainLimitProperties& limit, const char* method,
-                         double time_step);
+                         double time_step, const MethodSettings& settings = one_iteration);
 
 }  // namespace cloth

@@ -24,7 +24,9 @@ endif()
 cloth_add_test(model
   test/model/cloth_model_test.cpp
   test/model/inverse_root_test.cpp
+  test/model/spring_layout_test.cpp
 )
+target_include_directories(test_model PRIVATE src/model)
 cloth_add_test(forces
   test/forces/air_test.cpp
   test/forces/gravity_test.cpp
@@ -43,6 +45,7 @@ cloth_add_test(methods
   test/methods/allocations_test.cpp
   test/methods/energy_drift_test.cpp
   test/methods/exact_motion_test.cpp
+  test/methods/mixed_precision_test.cpp
   test/methods/multigrid_test.cpp
   test/methods/order_test.cpp
   test/methods/spectrum_test.cpp

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "cloth_sim/model/cloth_model.h"
 
 #include "shortening.h"
+#include "tension_passes.h"
 
 namespace cloth
 {
@@ -29,14 +27,6 @@ namespace cloth
 class SpringTensions : public Shortening
 {
 public:
-  /// The longest of some springs.
-  enum class Lengths
-  {
-    slack,
-    taut,     ///< as long as tensions hold a spring, or longer: it gets one in the next pass
-    too_long  ///< longer than the limit and its tolerance allow: there must be a next pass
-  };
-
   explicit SpringTensions(const ClothModel& model);
 
   StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, Vectors& positions,
@@ -44,57 +34,7 @@ public:
   void go_on_from(const Shortening& before) override;
 
 private:
-  /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do
-  /// not. Within a step it stays the same.
-  static constexpr double margin_growth = 1.5;
-  static constexpr double margin_decay = 0.98;
-  static constexpr int few = 2;
-  /// The most by which tensions grow before a step's passes: not at all where the last step did not reach the limit.
-  static constexpr double most_growth = 2.0;
-  static constexpr double most_growth_of_a_failure = 1.0;
-
-  struct Batch
-  {
-    SpringBatch springs;
-    int blocks_a_row;
-    std::vector<double> tensions[3];   ///< x, y, z of one for each spring, kg m
-    std::vector<char> is_taut;         ///< for each block: some spring has a tension, or was found taut
-    std::vector<long> found_slack_at;  ///< for each block: when all of its springs were slack
-  };
-
-  /// At most spring_row_size springs in a row: the n springs of a batch from number `first` on, which begin at `node`
-  /// and the nodes after it. Nodes are grouped in blocks of the same size.
-  struct Block
-  {
-    size_t index;
-    int first;
-    int node;
-    int n;
-  };
-
-  /// Calls visit(batch, block) for all blocks, row of nodes by row of nodes.
-  template <typename Visit>
-  void for_each_block(bool backwards, Visit&& visit);
-  static std::array<double*, 3> tensions_of(Batch& batch, const Block& block);
-  double target_length(const Batch& batch) const;
-  /// Pulls with the tensions of the last step times the factor that is best for them. False: they are of no use.
-  bool pull_as_before(const Eigen::VectorXd& inverse_masses, Vectors& positions);
-  Lengths find_taut_blocks(const Eigen::VectorXd& inverse_masses, Vectors& positions);
-  void relax_taut_blocks(bool backwards, const Eigen::VectorXd& inverse_masses, Vectors& positions);
-  void add_tensions_to(Vectors& shifts);
-  void let_go();
-  void scale_tensions(double factor);
-  void mark_moved(int node, int n);
-  long last_move(int node, int n) const;
-
-  int rows_;
-  double max_strain_ = 0.0;  ///< of the step
-  bool reached_ = true;
-  double margin_ = StrainLimit::least_margin;
-  std::vector<Batch> batches_;
-  std::vector<long> moved_at_;  ///< for each block of nodes
-  long now_ = 0;                ///< counts passes
-  Vectors shifts_;              ///< what the tensions of the last step ask for, m
+  TensionPasses<double> passes_;
 };
 
 }  // namespace cloth

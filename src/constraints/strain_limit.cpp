@@ -88,6 +88,12 @@ void StrainLimit::find_reach(const ClothModel& model, const Pins& pins, const Ve
   }
 }
 
+double StrainLimit::max_strain_for(const ClothModel& model, const Pins& pins, const Vectors& positions)
+{
+  find_reach(model, pins, positions);
+  return strain_in_force();
+}
+
 StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins, double h, ClothState& state,
                                        Vectors* impulses)
 {

@@ -18,6 +18,9 @@ extern const MethodRow tr_bdf2;
 extern const MethodRow projective;
 extern const MethodRow xpbd;
 
+/// xpbd in mixed precision.
+std::unique_ptr<Method> make_mixed_xpbd(const MethodSettings& settings);
+
 /// For rows of methods that no mode makes unstable.
 double no_stability_limit(const Mode& mode);
 

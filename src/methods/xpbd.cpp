@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth_sim/model/inverse_root.h"
 #include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/spring_rows.h"
 #include "cloth_sim/model/wide_vectors.h"
 
 #include "rows.h"
+#include "small_step_springs.h"
 
 namespace cloth
 {
@@ -88,7 +88,7 @@ private:
     add_impulses(h, accelerations_);
   }
 
-  void record(const RowChanges& changes, int node, int offset, int n, double h)
+  void record(const RowChanges<double>& changes, int node, int offset, int n, double h)
   {
     for (int k = 0; k < n; ++k)
     {
@@ -118,19 +118,11 @@ private:
     });
   }
 
-  struct Gains
-  {
-    double damping;
-    double compliance;
-    double rest_length;
-  };
-
   /// The springs of a row that have the colour: piece by piece of a stretch where stretches are long, else by choice.
   template <bool fused>
   void project_row(const SpringBatch& batch, int r, int colour, double h)
   {
-    const Gains gains{ compliance_ * batch.damping / (batch.stiffness * h), compliance_ / (batch.stiffness * h * h),
-                       batch.rest_length };
+    const Gains<double> gains = gains_of<double>(batch, compliance_, h);
     const int offset = batch.offset;
     const int begin = batch.first + r * batch.row_stride;
     const int end = begin + batch.cols;
@@ -157,61 +149,16 @@ private:
   }
 
   template <bool fused, typename IsChosen>
-  void project_block(int node, int offset, int n, const Gains& gains, IsChosen&& is_chosen, double h)
+  void project_block(int node, int offset, int n, const Gains<double>& gains, IsChosen&& is_chosen, double h)
   {
-    const SpringRow ways(inverse_masses_.data(), ways_, node, offset, n);
-    const SpringRow before(inverse_masses_.data(), before_, node, offset, n);
-    RowChanges changes;
+    const SpringRow<double> ways(inverse_masses_.data(), columns_of(ways_), node, offset, n);
+    const SpringRow<double> before(inverse_masses_.data(), columns_of(before_), node, offset, n);
+    RowChanges<double> changes;
     find_changes<fused>(ways, before, gains, is_chosen, changes);
     move_ends(ways, changes);
     if (records())
     {
       record(changes, node, offset, n, h);
-    }
-  }
-
-  template <bool fused, typename IsChosen>
-  static void find_changes(const SpringRow& ways, const SpringRow& before, const Gains& gains, IsChosen&& is_chosen,
-                           RowChanges& changes)
-  {
-    const double rest_length = gains.rest_length;
-    const double damping = gains.damping;
-    const double compliance = gains.compliance;
-    const double* const w_i = ways.w_i;
-    const double* const w_j = ways.w_j;
-    const double* const way_x_i = ways.i[0];
-    const double* const way_y_i = ways.i[1];
-    const double* const way_z_i = ways.i[2];
-    const double* const way_x_j = ways.j[0];
-    const double* const way_y_j = ways.j[1];
-    const double* const way_z_j = ways.j[2];
-    const double* const x_i = before.i[0];
-    const double* const y_i = before.i[1];
-    const double* const z_i = before.i[2];
-    const double* const x_j = before.j[0];
-    const double* const y_j = before.j[1];
-    const double* const z_j = before.j[2];
-    const int n = ways.n;
-    const int padded = ways.padded;
-#pragma GCC ivdep
-    for (int k = 0; k < padded; ++k)
-    {
-      const double way_x = way_x_j[k] - way_x_i[k];
-      const double way_y = way_y_j[k] - way_y_i[k];
-      const double way_z = way_z_j[k] - way_z_i[k];
-      const double x = x_j[k] - x_i[k] + way_x;
-      const double y = y_j[k] - y_i[k] + way_y;
-      const double z = z_j[k] - z_i[k] + way_z;
-      const double square = x * x + y * y + z * z;
-      const double inverse = inverse_root<fused>(square);
-      const double w = w_i[k] + w_j[k];
-      const double lengthening = inverse * (x * way_x + y * way_y + z * way_z);
-      const double resistance = (1.0 + damping) * w + compliance;
-      const double lambda = (square * inverse - rest_length + damping * lengthening) / resistance;
-      const double part = is_chosen(k) && k < n && w > 0.0 ? lambda * inverse : 0.0;
-      changes.x[k] = part * x;
-      changes.y[k] = part * y;
-      changes.z[k] = part * z;
     }
   }
 
@@ -238,6 +185,10 @@ const MethodRow xpbd{ "xpbd",
                       0,
                       "too soft where the substeps are too long, and not alike to both sides: it depends on the order",
                       [](const MethodSettings& settings) -> std::unique_ptr<Method> {
+                        if (settings.precision == Precision::mixed)
+                        {
+                          return make_mixed_xpbd(settings);
+                        }
                         return std::make_unique<ExtendedPositionBasedDynamics>(settings.iterations,
                                                                                settings.compliance);
                       } };

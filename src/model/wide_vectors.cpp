@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
 namespace cloth
 {
 namespace
@@ -55,5 +59,29 @@ void use_vector_width(VectorWidth width)
   }
   width_in_use() = width;
 }
+
+#if defined(__SSE__)
+
+FlushedDenormals::FlushedDenormals() : before_(_mm_getcsr())
+{
+  constexpr unsigned int flush_results = 0x8000;
+  constexpr unsigned int flush_operands = 0x0040;
+  _mm_setcsr(before_ | flush_results | flush_operands);
+}
+
+FlushedDenormals::~FlushedDenormals()
+{
+  _mm_setcsr(before_);
+}
+
+#else
+
+FlushedDenormals::FlushedDenormals() : before_(0)
+{
+}
+
+FlushedDenormals::~FlushedDenormals() = default;
+
+#endif
 
 }  // namespace cloth

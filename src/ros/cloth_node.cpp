@@ -370,7 +370,10 @@ bool ClothNode::apply_wind()
 {
   if (const auto wind = requests_.take_wind())
   {
-    bring_back_what_was_left_out();
+    if (*wind != cloth_->simulation.dynamics().air().properties().wind)
+    {
+      bring_back_what_was_left_out();
+    }
     warn_where_wind_has_no_effect();
     cloth_->simulation.set_wind(*wind);
     cloth_->wind_time_out.restart(clock_.now());

@@ -116,6 +116,11 @@ inline void assign(LimitSolver& target, const std::string& word)
   target = word == "tensions" ? LimitSolver::tensions : LimitSolver::plain_sweeps;
 }
 
+inline void assign(Precision& target, const std::string& word)
+{
+  target = word == "mixed" ? Precision::mixed : Precision::in_double;
+}
+
 inline void assign(bool& target, const std::string& word)
 {
   target = word == "true";
@@ -134,6 +139,11 @@ inline std::string word_of(MassLumping value)
 inline std::string word_of(LimitSolver value)
 {
   return value == LimitSolver::tensions ? "tensions" : "sweeps";
+}
+
+inline std::string word_of(Precision value)
+{
+  return value == Precision::mixed ? "mixed" : "double";
 }
 
 inline std::string word_of(bool value)

@@ -201,6 +201,10 @@ std::vector<Parameter<SceneParams>> make_table()
         "xpbd: factor on the springs' compliance 1/k; 1: stiffness means the same as in every other method, "
         "0: position-based dynamics",
         CLOTH_MEMBER(solver.compliance))),
+    Scene::choice("solver.precision", { "double", "mixed" },
+                  "xpbd: what its substeps compute in; mixed: in single precision, on one thread, what a step adds to "
+                  "a state in double",
+                  CLOTH_MEMBER(solver.precision)),
     Scene::integer(
         "solver.threads", 0, 64,
         "the most threads that share a step, where the sheet is large enough to gain by it; 0: 2, or as many "

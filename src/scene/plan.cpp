@@ -143,7 +143,8 @@ std::string settings_of(const SolverParams& solver)
   {
     return "; " + counted(static_cast<size_t>(solver.iterations), "substep") +
            " a step, the springs' compliance times " + format_number(solver.compliance) +
-           (solver.compliance == 0.0 ? ": position-based dynamics" : "");
+           (solver.compliance == 0.0 ? ": position-based dynamics" : "") +
+           (solver.precision == Precision::mixed ? ", in mixed precision" : "");
   }
   return "";
 }
@@ -230,6 +231,17 @@ void require_fitting_compliance(const SolverParams& solver)
   }
 }
 
+void require_fitting_precision(const SolverParams& solver)
+{
+  if (solver.precision == Precision::mixed && solver.method != "xpbd")
+  {
+    throw SceneError(
+        "solver.precision: mixed, but only xpbd has a mixed precision; double is allowed with "
+        "solver.method " +
+        solver.method);
+  }
+}
+
 Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneStart& start, const Planned& planned)
 {
   Plan plan;
@@ -279,7 +291,8 @@ SimulationSetup setup_of(const Plan& plan)
   setup.air = scene.air;
   setup.strain_limit = scene.strain_limit;
   setup.method = plan.method;
-  setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance };
+  setup.method_settings = { scene.solver.tolerance, scene.solver.iterations, scene.solver.compliance,
+                            scene.solver.precision };
   setup.time_step = scene.solver.time_step;
   setup.keeps_within_limit = plan.keeps_within_limit;
   setup.threads = scene.solver.threads;
@@ -321,18 +334,21 @@ void require_forces_to_reckon_with(const Simulation& simulation)
 Plan make_plan(const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
   return make_plan(scene, scene_start(scene, make_sheet(scene.sheet)));
 }
 
 Plan make_plan(const SceneParams& scene, const SceneStart& start)
 {
   require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
   return plan_with(scene, make_sheet(scene.sheet), start, planned_for(scene, start));
 }
 
 Plan make_plan(const SceneParams& scene, const Choice& choice)
 {
   require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
   const ClothModel model = make_sheet(scene.sheet);
   Planned planned = as_the_scene_says(scene);
   if (scene.solver.method == automatic)
@@ -346,6 +362,7 @@ Plan make_plan(const SceneParams& scene, const Choice& choice)
 Plan live_plan(const Plan& running, const SceneParams& scene)
 {
   require_fitting_compliance(scene.solver);
+  require_fitting_precision(scene.solver);
   SceneStart start{ running.start, {}, false };
   for (const PlanLine& line : running.lines)
   {

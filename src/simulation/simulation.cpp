@@ -102,6 +102,9 @@ void Simulation::step(double h)
   const double begin = state_.time;
   const PartCalls calls_before = part_calls();
   method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
+  const bool has_tensions = strain_limit_.active() && strain_limit_.properties().solver == LimitSolver::tensions;
+  method_->limit_strain(has_tensions ? strain_limit_.max_strain_for(model(), pins(), state_.positions) : 0.0,
+                        strain_limit_.properties().sweeps);
   const StepReport report = method_->step(dynamics_, h, state_);
   last_step_ = state_.time - begin;
   if (strain_limit_.active())
@@ -114,6 +117,7 @@ void Simulation::step(double h)
     }
     counters_.limit_sweeps += static_cast<std::uint64_t>(limit_report.sweeps);
   }
+  counters_.limit_sweeps += static_cast<std::uint64_t>(report.limit_sweeps);
   counters_.force_evaluations += static_cast<std::uint64_t>(report.force_evaluations);
   counters_.linear_solves += static_cast<std::uint64_t>(report.linear_solves);
   counters_.linear_iterations += static_cast<std::uint64_t>(report.linear_iterations);

@@ -379,6 +379,7 @@ TEST(ParameterTableWords, AreThoseOfTheInterface)
     { "solver.method",
       { "auto", "explicit_euler", "symplectic_euler", "velocity_verlet", "midpoint", "rk4", "dopri5", "implicit_euler",
         "implicit_midpoint", "tr_bdf2", "projective", "xpbd" } },
+    { "solver.precision", { "double", "mixed" } },
     { "clock_mode", { "follow", "master" } },
     { "plan", { "auto", "full" } },
     { "start_paused", { "false", "true" } },

@@ -260,6 +260,13 @@ TEST(LivePlan, RefusesWhatDoesNotFitTogether)
   EXPECT_THROW(live_plan(before, scene), SceneError);
 }
 
+TEST(Plan, RefusesMixedPrecisionOfAMethodThatHasNone)
+{
+  EXPECT_THROW(make_plan(scene_of("{solver: {method: rk4, precision: mixed}}")), SceneError);
+  const Plan plan = make_plan(scene_of("{cloth: {rows: 6, cols: 6}, solver: {method: xpbd, precision: mixed}}"));
+  EXPECT_EQ(plan.scene.solver.precision, Precision::mixed);
+}
+
 TEST(LivePlan, WhereForcesOverflowNothingCarriesOn)
 {
   SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}, solver: {method: tr_bdf2}}");

@@ -49,6 +49,7 @@ solver:
   tolerance: 1.0e-3
   iterations: 10
   compliance: 1
+  precision: double
   threads: 0
 plan: auto
 rate: 30
@@ -131,7 +132,7 @@ air: {viscous_damping: 4.1, wind_coupling: 4.2, wind: [10, 11, 12],
       gusts: {strength: 4.3, time_scale: 4.4, seed: 8}}
 pins:
   - {name: one, nodes: [[1, -2], [0, 0]], motion: {amplitude: [13, 14, 15], frequency: 5.1, phase: 5.2}}
-solver: {method: xpbd, time_step: 6.1, tolerance: 6.2, iterations: 7, compliance: 0.3, threads: 8}
+solver: {method: xpbd, time_step: 6.1, tolerance: 6.2, iterations: 7, compliance: 0.3, precision: mixed, threads: 8}
 plan: full
 rate: 7.1
 real_time_factor: 7.2
@@ -178,6 +179,7 @@ display: {colouring: strain, fabric_colour: [0.7, 0.8, 0.9]}
   EXPECT_EQ(scene.solver.tolerance, 6.2);
   EXPECT_EQ(scene.solver.iterations, 7);
   EXPECT_EQ(scene.solver.compliance, 0.3);
+  EXPECT_EQ(scene.solver.precision, Precision::mixed);
   EXPECT_EQ(scene.solver.threads, 8);
   EXPECT_EQ(scene.plan, "full");
   EXPECT_EQ(scene.node.rate, 7.1);

@@ -71,6 +71,9 @@ public:
     return reach_;
   }
 
+  /// max_strain, or where the pins demand more that which the sheet is held to while they are where they are.
+  double max_strain_for(const ClothModel& model, const Pins& pins, const Vectors& positions);
+
   /// What one call did.
   struct Report
   {

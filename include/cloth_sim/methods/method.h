@@ -10,12 +10,20 @@
 namespace cloth
 {
 
+/// The numbers that a method computes in.
+enum class Precision
+{
+  in_double,
+  mixed  ///< what a step adds to the state, which stays in doubles, is worked out in single precision
+};
+
 /// What a scene may ask of a method. Each method reads what it needs.
 struct MethodSettings
 {
   double tolerance = 1e-3;  ///< m; the most that an adaptive method's error estimate may be in a step
   int iterations = 10;      ///< projective: local-global iterations a step; xpbd: substeps a step
   double compliance = 1.0;  ///< xpbd: factor on the springs' compliance 1/k; 0: position-based dynamics
+  Precision precision = Precision::in_double;  ///< xpbd
 };
 
 /// What a step cost, and whether it is what the method promises.
@@ -25,6 +33,7 @@ struct StepReport
   int linear_solves = 0;
   int linear_iterations = 0;  ///< of conjugate gradients, in all solves
   int rejected_steps = 0;     ///< tried and thrown away because the error estimate was too large
+  int limit_sweeps = 0;       ///< passes of the strain limit within the step
   bool converged = true;      ///< false: the step's equations were left with a residual above the method's bound
 };
 
@@ -40,6 +49,12 @@ public:
   /// Forgets what was kept from the last step. To be called whenever something other than the method changed the
   /// state, the pins or the forces.
   virtual void restart()
+  {
+  }
+
+  /// From now on a method that corrects the strain after each of its substeps keeps it below max_strain (0: no limit)
+  /// in at most so many passes. Others leave that to whoever calls `step`.
+  virtual void limit_strain(double /*max_strain*/, int /*passes*/)
   {
   }
 

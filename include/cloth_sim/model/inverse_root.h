@@ -36,4 +36,25 @@ inline double inverse_root(double square)
   return square >= least ? y : 0.0;
 }
 
+/// The same in single precision, within 3 units in the last place.
+template <bool fused>
+inline float inverse_root(float square)
+{
+  constexpr float least = std::numeric_limits<float>::min();
+  if constexpr (!fused)
+  {
+    return square >= least ? 1.0F / std::sqrt(square) : 0.0F;
+  }
+  std::int32_t bits;
+  std::memcpy(&bits, &square, sizeof bits);
+  bits = 0x5F37642F - (bits >> 1);
+  float y;
+  std::memcpy(&y, &bits, sizeof y);
+  float h = 1.0F - square * y * y;
+  y *= 0.99999925F + h * (0.50000132F + h * (0.37627812F + h * 0.31279764F));
+  h = 1.0F - square * y * y;
+  y += y * h * 0.5F;
+  return square >= least ? y : 0.0F;
+}
+
 }  // namespace cloth

@@ -3,8 +3,7 @@
 // How loops that correct the ends of springs, one spring after the other, are laid out.
 
 #include <array>
-
-#include "cloth_sim/model/vectors.h"
+#include <cstdlib>
 
 namespace cloth
 {
@@ -12,52 +11,75 @@ namespace cloth
 /// The most springs that are corrected in one go.
 inline constexpr int spring_row_size = 32;
 
+/// So many numbers are the widest vector.
+template <typename Scalar>
+inline constexpr int lanes_of = 64 / sizeof(Scalar);
+
 /// Loops over the springs of a row go on to a whole number of the widest vectors, where they change nothing. Arrays of
 /// what they read and write have so much room behind the last node or spring.
-inline constexpr int row_padding = 8;
+inline constexpr int row_padding = lanes_of<float>;
+
+/// The columns x, y, z of vectors, one a node.
+template <typename Scalar>
+using Columns = std::array<Scalar*, 3>;
+
+template <typename Derived>
+Columns<typename Derived::Scalar> columns_of(Derived& vectors)
+{
+  return { vectors.col(0).data(), vectors.col(1).data(), vectors.col(2).data() };
+}
 
 /// At most `spring_row_size` springs in a row of a batch: spring k joins node i + k and the node `offset` further on.
+/// In single precision they are one vector at most.
+template <typename Scalar>
 struct SpringRow
 {
-  /// The rows of `vectors` are what is corrected: positions, shifts.
-  SpringRow(const double* inverse_masses, Vectors& vectors, int node, int offset, int springs)
+  /// `vectors` are what is corrected: positions, shifts.
+  SpringRow(const Scalar* inverse_masses, const Columns<Scalar>& vectors, int node, int offset, int springs)
     : w_i(inverse_masses + node)
     , w_j(w_i + offset)
-    , i{ vectors.col(0).data() + node, vectors.col(1).data() + node, vectors.col(2).data() + node }
+    , i{ vectors[0] + node, vectors[1] + node, vectors[2] + node }
     , j{ i[0] + offset, i[1] + offset, i[2] + offset }
     , n(springs)
-    , padded((springs + row_padding - 1) / row_padding * row_padding)
   {
   }
 
-  const double* w_i;  ///< inverse masses of the first ends
-  const double* w_j;
-  std::array<double*, 3> i;  ///< x, y, z of the first ends
-  std::array<double*, 3> j;
+  /// n and what makes it a whole number of vectors.
+  int padded() const
+  {
+    constexpr int lanes = lanes_of<Scalar>;
+    return (n + lanes - 1) / lanes * lanes;
+  }
+
+  const Scalar* w_i;  ///< inverse masses of the first ends
+  const Scalar* w_j;
+  std::array<Scalar*, 3> i;  ///< x, y, z of the first ends
+  std::array<Scalar*, 3> j;
   int n;
-  int padded;  ///< n and what makes it a whole number of vectors
 };
 
 /// A vector for each spring of a row, and zero for what makes it a whole number of vectors.
+template <typename Scalar>
 struct RowChanges
 {
-  alignas(64) double x[spring_row_size];
-  alignas(64) double y[spring_row_size];
-  alignas(64) double z[spring_row_size];
+  alignas(64) Scalar x[spring_row_size];
+  alignas(64) Scalar y[spring_row_size];
+  alignas(64) Scalar z[spring_row_size];
 };
 
 /// Moves the first ends by the changes over their masses, the second ends the other way.
-inline void move_ends(const SpringRow& row, const RowChanges& changes)
+template <typename Scalar>
+void move_ends(const SpringRow<Scalar>& row, const RowChanges<Scalar>& changes)
 {
-  const double* const columns[] = { changes.x, changes.y, changes.z };
-  const double* const w_i = row.w_i;
-  const double* const w_j = row.w_j;
-  const int n = row.padded;
+  const Scalar* const columns[] = { changes.x, changes.y, changes.z };
+  const Scalar* const w_i = row.w_i;
+  const Scalar* const w_j = row.w_j;
+  const int n = row.padded();
   for (size_t d = 0; d < 3; ++d)
   {
-    const double* const change = columns[d];
-    double* const i = row.i[d];
-    double* const j = row.j[d];
+    const Scalar* const change = columns[d];
+    Scalar* const i = row.i[d];
+    Scalar* const j = row.j[d];
 #pragma GCC ivdep
     for (int k = 0; k < n; ++k)
     {
@@ -76,7 +98,7 @@ inline void move_ends(const SpringRow& row, const RowChanges& changes)
 template <typename Correct>
 void in_turns(int offset, int n, Correct&& correct)
 {
-  if (offset >= n)
+  if (std::abs(offset) >= n)
   {
     correct([](int) { return true; });
     return;

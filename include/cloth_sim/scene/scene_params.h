@@ -9,6 +9,7 @@
 #include "cloth_sim/constraints/pins.h"
 #include "cloth_sim/constraints/strain_limit.h"
 #include "cloth_sim/forces/air.h"
+#include "cloth_sim/methods/method.h"
 #include "cloth_sim/model/cloth_model.h"
 
 namespace cloth
@@ -41,6 +42,7 @@ struct SolverParams
   double tolerance = 1e-3;  ///< m
   int iterations = 10;
   double compliance = 1.0;
+  Precision precision = Precision::in_double;
   int threads = 0;  ///< 0: chosen
 };
 

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cloth_sim/constraints/strain_limit.h"
+#include "cloth_sim/forces/springs.h"
+#include "cloth_sim/methods/method.h"
+#include "cloth_sim/model/wide_vectors.h"
+#include "cloth_sim/simulation/simulation.h"
+#include "support.h"
+
+namespace cloth
+{
+namespace
+{
+
+constexpr double frame = 1.0 / 60.0;
+
+/// A sheet that starts level, held at two corners, in substeps of steps of 1/60 s.
+SimulationSetup level_sheet(int rows, int cols, int substeps, Precision precision)
+{
+  SheetProperties sheet;
+  sheet.rows = rows;
+  sheet.cols = cols;
+  SimulationSetup setup;
+  setup.model = make_sheet(sheet);
+  setup.gravity = { 0.0, 0.0, -9.81 };
+  setup.air.wind_coupling = 0.0;
+  setup.start.positions = setup.model.rest_positions;
+  setup.start.positions.col(1).swap(setup.start.positions.col(2));
+  setup.start.velocities = Vectors::Zero(setup.model.nodes(), 3);
+  setup.pins = { still_pin("left", { 0 }, setup.start.positions),
+                 still_pin("right", { cols - 1 }, setup.start.positions) };
+  setup.strain_limit.max_strain = 0.0;
+  setup.method = find_method("xpbd");
+  setup.method_settings.iterations = substeps;
+  setup.method_settings.precision = precision;
+  setup.time_step = frame;
+  return setup;
+}
+
+Vectors positions_at(double time, SimulationSetup setup)
+{
+  Simulation simulation(std::move(setup));
+  EXPECT_TRUE(simulation.advance_to(time));
+  return simulation.state().positions;
+}
+
+double farthest(const Vectors& a, const Vectors& b)
+{
+  return std::sqrt((a - b).rowwise().squaredNorm().maxCoeff());
+}
+
+/// One spring has no order in which springs could be corrected: what is left is rounding.
+TEST(MixedPrecision, OfOneSpringDiffersByRoundingAlone)
+{
+  const auto swing = [](Precision precision) {
+    SimulationSetup setup = level_sheet(1, 2, 16, precision);
+    setup.pins.resize(1);
+    return positions_at(0.5, std::move(setup));
+  };
+  const double difference = farthest(swing(Precision::in_double), swing(Precision::mixed));
+  EXPECT_GT(difference, 1e-12);
+  EXPECT_LT(difference, 2e-5);
+}
+
+/// The order of the springs is another one, which matters the less the shorter the substeps are.
+TEST(MixedPrecision, ConvergesToWhatDoublesConvergeTo)
+{
+  for (const double wind_coupling : { 0.0, 1.0 })
+  {
+    const auto swing = [&](int substeps, Precision precision) {
+      SimulationSetup setup = level_sheet(9, 20, substeps, precision);
+      setup.air.wind_coupling = wind_coupling;
+      return positions_at(6.0 * frame, std::move(setup));
+    };
+    const Vectors fine = swing(1600, Precision::in_double);
+    const double error_of_doubles = farthest(swing(100, Precision::in_double), fine);
+    EXPECT_GT(error_of_doubles, 1e-5);
+    EXPECT_LT(farthest(swing(100, Precision::mixed), fine), 2.0 * error_of_doubles);
+  }
+}
+
+TEST(MixedPrecision, KeepsTheStrainLimitAtEveryStep)
+{
+  SimulationSetup setup = level_sheet(24, 24, 8, Precision::mixed);
+  setup.strain_limit = { 0.05, 1000, LimitSolver::tensions };
+  Simulation simulation(std::move(setup));
+  double worst = 0.0;
+  for (int step = 1; step <= 120; ++step)
+  {
+    ASSERT_TRUE(simulation.advance_to(step * frame));
+    worst = std::max(worst, max_strain(simulation.model(), simulation.state().positions));
+  }
+  EXPECT_LE(worst, 0.05 * (1.0 + StrainLimit::tolerance) + 1e-12);
+  EXPECT_GT(worst, 0.04);
+  EXPECT_GT(simulation.counters().limit_sweeps, 120U * 8U / 4U);
+}
+
+TEST(MixedPrecision, KeepsTheMomentumOfWhatIsFree)
+{
+  SimulationSetup setup = level_sheet(12, 20, 8, Precision::mixed);
+  setup.gravity.setZero();
+  setup.air.viscous_damping = 0.0;
+  setup.pins.clear();
+  setup.strain_limit = { 0.02, 1000, LimitSolver::tensions };
+  for (int node = 0; node < setup.model.nodes(); ++node)
+  {
+    const double x = setup.start.positions(node, 0);
+    setup.start.velocities.row(node) << 0.3 + 3.0 * x, std::sin(0.7 * node), 4.0 * x;
+  }
+  Simulation simulation(std::move(setup));
+  const auto momentum = [&]() -> Eigen::RowVector3d {
+    return simulation.model().masses.transpose() * simulation.state().velocities;
+  };
+  const Eigen::RowVector3d before = momentum();
+  ASSERT_TRUE(simulation.advance_to(0.5));
+  EXPECT_GT(simulation.counters().limit_sweeps, 0U);
+  EXPECT_LT((momentum() - before).norm(), 5e-5 * before.norm());
+}
+
+TEST(MixedPrecision, TellsWhatTheSheetDoesToItsPins)
+{
+  SimulationSetup setup = level_sheet(10, 20, 8, Precision::mixed);
+  setup.air.viscous_damping = 0.0;
+  setup.strain_limit = { 0.05, 1000, LimitSolver::tensions };
+  Simulation simulation(std::move(setup));
+  simulation.measure_reactions(true);
+  const auto momentum = [&]() -> Eigen::Vector3d {
+    return (simulation.model().masses.transpose() * simulation.state().velocities).transpose();
+  };
+  ASSERT_TRUE(simulation.advance_to(0.5));
+  Eigen::Vector3d on_pins = Eigen::Vector3d::Zero();
+  for (const Pin& pin : simulation.pins().all())
+  {
+    on_pins += simulation.reaction_on(pin).force;
+  }
+  const Eigen::Vector3d weight(0.0, 0.0, -9.81 * simulation.model().masses.sum());
+  EXPECT_LT((0.5 * (weight - on_pins) - momentum()).norm(), 1e-4 * 0.5 * weight.norm());
+}
+
+/// Single precision is rounded in another order in vectors of another width.
+TEST(MixedPrecision, IsTheSameInAnyVectorsButForRounding)
+{
+  const VectorWidth before = vector_width();
+  const auto swing = [] { return positions_at(3.0 * frame, level_sheet(12, 20, 32, Precision::mixed)); };
+  const Vectors expected = swing();
+  for (const VectorWidth width : vector_widths())
+  {
+    use_vector_width(width);
+    EXPECT_LT(farthest(swing(), expected), 1e-5);
+  }
+  use_vector_width(before);
+}
+
+TEST(MixedPrecision, HoldsCarriedPinsWhereTheyBelong)
+{
+  SimulationSetup setup = level_sheet(8, 20, 8, Precision::mixed);
+  setup.strain_limit = { 0.05, 100, LimitSolver::tensions };
+  Simulation simulation(std::move(setup));
+  const Eigen::Vector3d target = simulation.pins().find("left")->held_middle() + Eigen::Vector3d(0.0, 0.0, 0.5);
+  ASSERT_TRUE(simulation.carry("left", target, 10.5 * frame));
+  ASSERT_TRUE(simulation.advance_to(20.0 * frame));
+  EXPECT_LT((simulation.state().positions.row(0) - target.transpose()).norm(), 1e-12);
+  EXPECT_EQ(simulation.state().velocities.row(0).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace cloth
