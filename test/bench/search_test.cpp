@@ -100,7 +100,7 @@ protected:
 
   void expect_best(const std::vector<Measurement>& rows, double tolerance, const std::string& solver, double cost) const
   {
-    const std::optional<Candidate> best = best_of(rows, tolerance);
+    const std::optional<Contender> best = best_of(rows, tolerance);
     ASSERT_TRUE(best);
     EXPECT_EQ(best->row.solver, solver);
     EXPECT_LE(best->row.errors.rms, tolerance);
