@@ -35,7 +35,11 @@ Problem problem_of(const std::string& name, Kind kind, SceneParams scene, double
   {
     scene.strain_limit.max_strain = 0.0;
   }
-  scene.solver = { "velocity_verlet", 0.0, scene.solver.tolerance, scene.solver.iterations, 1.0, 1 };
+  scene.solver.method = "velocity_verlet";
+  scene.solver.time_step = 0.0;
+  scene.solver.compliance = 1.0;
+  scene.solver.precision = Precision::in_double;
+  scene.solver.threads = 1;
   const ClothModel model = make_sheet(scene.sheet);
   SceneStart start = scene_start(scene, model);
   if (scene.start.shape != "flat" || scene.start.ripple == 0.0)

@@ -19,6 +19,7 @@ SceneParams small_hanging_sheet()
 {
   SceneParams scene = shipped_scene("hanging_sheet");
   scene.sheet.rows = scene.sheet.cols = 12;
+  scene.solver.method = "velocity_verlet";
   return scene;
 }
 
