@@ -171,15 +171,39 @@ TEST_F(ClothRunSummary, HasThePlanThatPlanPrints)
   {
     lines += line.as<std::string>() + "\n";
   }
-  EXPECT_EQ(lines, run(small_scene() + " --plan").output);
+  const std::string printed = run(small_scene() + " --plan").output;
+  EXPECT_EQ(printed.substr(0, lines.size()), lines);
+  EXPECT_EQ(printed.substr(lines.size(), 6), "grid: ");
+}
+
+TEST_F(ClothRunSummary, HasTheChoiceFromWhichTheSameRunIsMadeAgain)
+{
+  const YAML::Node first = summary_of("--duration 0.1 --output " + path("first.csv"));
+  EXPECT_TRUE(find_method(first["choice"]["method"].as<std::string>()) != nullptr);
+  const std::string kept = write("kept.yaml", text_of(path("summary.yaml")));
+  const YAML::Node second = summary_of("--duration 0.1 --plan-from " + kept + " --output " + path("second.csv"));
+  EXPECT_EQ(text_of(path("first.csv")), text_of(path("second.csv")));
+  EXPECT_EQ(second["method"].as<std::string>(), first["choice"]["method"].as<std::string>());
+  const Ended refused = run(small_scene() + " --plan-from " + write("bad.yaml", "method: euler\n"));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(has(refused.errors, { "choice.method is euler; allowed: one of " }));
 }
 
 TEST_F(ClothRunSummary, CountsTheStepsBetweenSamplesEqualAndAsFewAsTheStepAllows)
 {
   // Samples at 0.04, 0.08, 0.1, steps of at most 0.003: 14 + 14 + 7.
-  EXPECT_EQ(summary_of("--duration 0.1 --every 0.04 --set solver.time_step=0.003")["steps"].as<int>(), 35);
-  EXPECT_EQ(summary_of("--duration 0.1 --every 0.04 --set solver.time_step=0.002")["steps"].as<int>(), 50);
-  EXPECT_EQ(summary_of("--duration 0.1 --every 1 --set solver.time_step=0.003")["steps"].as<int>(), 34);
+  EXPECT_EQ(summary_of(
+                "--set solver.method=velocity_verlet --duration 0.1 --every 0.04 --set solver.time_step=0.003")["steps"]
+                .as<int>(),
+            35);
+  EXPECT_EQ(summary_of(
+                "--set solver.method=velocity_verlet --duration 0.1 --every 0.04 --set solver.time_step=0.002")["steps"]
+                .as<int>(),
+            50);
+  EXPECT_EQ(
+      summary_of("--set solver.method=velocity_verlet --duration 0.1 --every 1 --set solver.time_step=0.003")["steps"]
+          .as<int>(),
+      34);
   const YAML::Node none = summary_of("--duration 0");
   EXPECT_EQ(none["steps"].as<int>(), 0);
   EXPECT_EQ(none["simulated_time"].as<double>(), 0.0);
@@ -192,7 +216,8 @@ TEST_F(ClothRunSummary, CountsTheStepsBetweenSamplesEqualAndAsFewAsTheStepAllows
 TEST_F(ClothRunSummary, HasNoStabilityLimitWithoutSprings)
 {
   const YAML::Node summary = summary_of(
-      "--duration 0.1 --every 0.05 --set springs.structural.stiffness=0 --set springs.shear.stiffness=0 "
+      "--set solver.method=velocity_verlet --duration 0.1 --every 0.05 --set springs.structural.stiffness=0 --set "
+      "springs.shear.stiffness=0 "
       "--set springs.flex.stiffness=0 --set air.viscous_damping=0 --set air.wind_coupling=0 --set pins=[]");
   EXPECT_TRUE(contains(text_of(path("summary.yaml")), "\nstability_limit: .inf\n"));
   EXPECT_EQ(summary["time_step"].as<double>(), 1.0 / 240.0);
