@@ -373,6 +373,10 @@ Plan live_plan(const Plan& running, const SceneParams& scene)
   {
     planned.choice = running.choice;
     planned.choice.left_out.clear();
+    if (scene.solver.time_step != running.asked.solver.time_step)
+    {
+      planned.choice.time_step = scene.solver.time_step;
+    }
     for (const PlanLine& line : running.lines)
     {
       planned.reason = line.part == method_part ? line.reason : planned.reason;

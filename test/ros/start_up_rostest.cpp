@@ -81,7 +81,8 @@ TEST(StartUp, KeysOfTheNodeAreLaidOverTheHangingSheet)
 TEST(StartUp, TextOfTheCommandLineIsTakenAsNumbers)
 {
   Listener<cloth_sim::ClothTopology> topology("/cloth_node/topology");
-  NodeProcess node({ "_cloth/rows:=20", "_cloth/cols:=5", "_gravity:=[0,0,-1]", "_solver/time_step:=1e-3" });
+  NodeProcess node({ "_cloth/rows:=20", "_cloth/cols:=5", "_gravity:=[0,0,-1]", "_solver/method:=velocity_verlet",
+                     "_solver/time_step:=1e-3" });
   ASSERT_TRUE(topology.wait_for(1));
   EXPECT_EQ(topology.last().rows, 20u);
   node.signal(SIGINT);

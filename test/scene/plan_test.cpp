@@ -237,6 +237,20 @@ TEST(LivePlan, BringsBackWhatATrialLeftOut)
   EXPECT_TRUE(after.choice.left_out.empty());
 }
 
+TEST(LivePlan, OfAutoTakesAStepThatIsGivenAndLetsItGoAgain)
+{
+  SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}}");
+  const Plan before = make_plan(scene);
+  scene.solver.time_step = 1e-6;
+  const Plan shorter = live_plan(before, scene);
+  const Simulation simulation = carry_on(shorter, build_simulation(before));
+  EXPECT_EQ(simulation.time_step(), 1e-6);
+  scene.air.viscous_damping = 0.7;
+  EXPECT_EQ(carry_on(live_plan(shorter, scene), simulation).time_step(), 1e-6);
+  scene.solver.time_step = 0.0;
+  EXPECT_GT(carry_on(live_plan(shorter, scene), simulation).time_step(), 1e-5);
+}
+
 TEST(LivePlan, ChangedGustsAreThoseThatTheirSceneWouldHaveHadAtThatTime)
 {
   SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}, air: {wind: [0, 1, 0], gusts: {strength: 1}}}");
