@@ -57,15 +57,18 @@ target_include_directories(test_methods PRIVATE src/methods)
 cloth_add_test(simulation
   test/simulation/conservation_test.cpp
   test/simulation/divergence_test.cpp
+  test/simulation/error_watch_test.cpp
   test/simulation/failure_test.cpp
   test/simulation/part_calls_test.cpp
   test/simulation/reactions_test.cpp
   test/simulation/settle_test.cpp
   test/simulation/simulation_test.cpp
   test/simulation/sleep_test.cpp
+  test/simulation/stability_watch_test.cpp
   test/simulation/statics_test.cpp
 )
 cloth_add_test(planning
+  test/planning/method_errors_test.cpp
   test/planning/planner_test.cpp
   test/planning/started_scene_test.cpp
   test/planning/step_costs_test.cpp

@@ -1,7 +1,6 @@
 // Charts speed against accuracy: cloth_bench [SCENE.yaml ...] [options], see bench_options.cpp; what the tables mean
 // stands in README.md beside this file.
 
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -22,14 +21,6 @@ namespace
 constexpr int done = 0;
 constexpr int refused = 1;
 constexpr int bad_usage = 2;
-
-/// What is measured is kept run by run: only files that are half written are left behind, and go.
-void end_without_traces(int signal)
-{
-  cloth::ReplacedFile::remove_uncommitted();
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
 
 void say(const std::string& line)
 {
@@ -97,9 +88,7 @@ int main(int argc, char** argv)
       std::cout << cloth::bench_usage;
       return done;
     }
-    std::signal(SIGINT, end_without_traces);
-    std::signal(SIGTERM, end_without_traces);
-    std::signal(SIGHUP, end_without_traces);
+    cloth::ReplacedFile::remove_uncommitted_when_ended();
     return run(options, command_of(argc, argv));
   }
   catch (const cloth::BenchUsageError& error)

@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "cloth_sim/threads/processor.h"
+
 #include "replaced_file.h"
 
 namespace cloth
@@ -17,20 +19,6 @@ extern const char* const source_commit;
 
 namespace
 {
-
-std::string processor()
-{
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-  {
-    const size_t colon = line.find(": ");
-    if (line.compare(0, 10, "model name") == 0 && colon != std::string::npos)
-    {
-      return line.substr(colon + 2);
-    }
-  }
-  return "unknown processor";
-}
 
 std::string without_commas(std::string text)
 {
@@ -48,7 +36,7 @@ Provenance provenance_here()
 #else
   const std::string compiler = std::string("gcc ") + __VERSION__;
 #endif
-  return { without_commas(processors + processor()), without_commas(compiler + " " CLOTH_BENCH_BUILD_TYPE),
+  return { without_commas(processors + processor_name()), without_commas(compiler + " " CLOTH_BENCH_BUILD_TYPE),
            without_commas(source_commit) };
 }
 

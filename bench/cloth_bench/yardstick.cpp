@@ -1,7 +1,9 @@
 #include "yardstick.h"
 
+#include <algorithm>
+
 #include "cloth_sim/scene/plan.h"
-#include "processor_time.h"
+#include "cloth_sim/threads/processor.h"
 
 namespace cloth
 {
@@ -33,6 +35,7 @@ Yardstick::Yardstick() : sheet_(small_sheet())
 {
   measured_length();
   length_ = measured_length();
+  shortest_ = length_;
 }
 
 double Yardstick::length()
@@ -40,6 +43,7 @@ double Yardstick::length()
   if (WallClock::now() - measured_ >= freshness)
   {
     length_ = measured_length();
+    shortest_ = std::min(shortest_, length_);
   }
   return length_;
 }

@@ -21,6 +21,12 @@ public:
   /// What the work takes, s of processor time; measured again where that was done `freshness` ago or longer.
   double length();
 
+  /// The shortest that it has ever been, s: what it takes on a machine that does nothing else.
+  double shortest() const
+  {
+    return shortest_;
+  }
+
   /// About 20 times what the work takes.
   static constexpr std::chrono::milliseconds freshness{ 20 };
 
@@ -30,6 +36,7 @@ private:
   Simulation sheet_;
   Vectors accelerations_;
   double length_;
+  double shortest_;
   WallClock::time_point measured_;
 
   double measured_length();

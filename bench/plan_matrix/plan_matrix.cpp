@@ -1,7 +1,6 @@
 // Whether the planner's choices hold, on scenes drawn at random: plan_matrix [options], see matrix_options.cpp; what
 // the tables mean stands in README.md beside this file.
 
-#include <csignal>
 #include <exception>
 #include <fstream>
 #include <iostream>
@@ -19,14 +18,6 @@ namespace
 constexpr int done = 0;
 constexpr int refused = 1;
 constexpr int bad_usage = 2;
-
-/// What is measured is kept run by run: only files that are half written are left behind, and go.
-void end_without_traces(int signal)
-{
-  cloth::ReplacedFile::remove_uncommitted();
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
 
 void say(const std::string& line)
 {
@@ -77,9 +68,7 @@ int main(int argc, char** argv)
       std::cout << cloth::matrix_usage;
       return done;
     }
-    std::signal(SIGINT, end_without_traces);
-    std::signal(SIGTERM, end_without_traces);
-    std::signal(SIGHUP, end_without_traces);
+    cloth::ReplacedFile::remove_uncommitted_when_ended();
     return run(options);
   }
   catch (const cloth::MatrixUsageError& error)

@@ -1,7 +1,8 @@
 #include "planned_run.h"
 
+#include "cloth_sim/threads/processor.h"
+
 #include "own_solver.h"
-#include "processor_time.h"
 #include "yardstick.h"
 
 namespace cloth

@@ -185,9 +185,13 @@ double stiffness_bound(const Dynamics& dynamics, const Vectors& positions)
 
 Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions)
 {
+  return spectrum_of(dynamics, positions,
+                     std::min(stiffness_bound(dynamics, positions), margin * lanczos_estimate(dynamics, positions)));
+}
+
+Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions, double stiffness)
+{
   const ClothModel& model = dynamics.model();
-  const double stiffness =
-      std::min(stiffness_bound(dynamics, positions), margin * lanczos_estimate(dynamics, positions));
   Spectrum spectrum;
   spectrum.frequency = std::sqrt(stiffness);
   spectrum.damping_ratio = largest_damping_ratio(model);

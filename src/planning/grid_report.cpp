@@ -20,7 +20,7 @@ namespace
 /// The fewest cells a side that make a cloth.
 constexpr int fewest_cells = 4;
 constexpr double rest_tolerance = 1e-6;
-constexpr std::uint64_t most_steps = 1000000;
+constexpr double most_evaluations = 1e6;
 
 struct Difference
 {
@@ -38,7 +38,7 @@ Vectors at_nodes_of(const StartedScene& coarse, const StartedScene& fine, const 
 /// On the grid of `coarse`, of which that of `scene` has all nodes.
 Motion motion_at(const StartedScene& coarse, const StartedScene& scene, const Stepping& stepping)
 {
-  Motion motion = motion_of(scene, stepping, most_steps);
+  Motion motion = motion_of(scene, stepping, most_evaluations);
   for (Vectors& positions : motion.positions)
   {
     positions = at_nodes_of(coarse, scene, positions);

@@ -9,6 +9,14 @@
 namespace cloth
 {
 
+namespace
+{
+
+/// Of conjugate gradients, on small sheets.
+constexpr double evaluations_of_an_iteration = 5.0;
+
+}  // namespace
+
 Simulation simulation_of(const StartedScene& scene, const Stepping& stepping)
 {
   SceneParams params = scene.params;
@@ -21,13 +29,17 @@ Simulation simulation_of(const StartedScene& scene, const Stepping& stepping)
   return build_simulation(plan);
 }
 
-Motion motion_of(const StartedScene& scene, const Stepping& stepping, std::uint64_t most_steps, int samples)
+double evaluations_in(const Simulation::Counters& counters)
+{
+  return static_cast<double>(counters.force_evaluations + counters.limit_sweeps) +
+         evaluations_of_an_iteration * static_cast<double>(counters.linear_iterations);
+}
+
+Motion motion_of(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples)
 {
   Simulation simulation = simulation_of(scene, stepping);
   const double begin = simulation.state().time;
-  const auto takes_too_long = [&] {
-    return simulation.counters().steps + simulation.counters().rejected_steps > most_steps;
-  };
+  const auto takes_too_long = [&] { return evaluations_in(simulation.counters()) > most_evaluations; };
   Motion motion;
   for (int s = 1; s <= samples && !takes_too_long(); ++s)
   {

@@ -34,8 +34,11 @@ struct Motion
 /// SceneError.
 Simulation simulation_of(const StartedScene& scene, const Stepping& stepping);
 
-/// The motion up to the sample `samples`; cut off where it diverges or would take more than `most_steps`.
-Motion motion_of(const StartedScene& scene, const Stepping& stepping, std::uint64_t most_steps,
+/// What steps took, in evaluations of the forces.
+double evaluations_in(const Simulation::Counters& counters);
+
+/// The motion up to the sample `samples`; cut off where it diverges or has taken more than `most_evaluations`.
+Motion motion_of(const StartedScene& scene, const Stepping& stepping, double most_evaluations,
                  int samples = Motion::samples);
 
 /// Root mean square over all nodes and the first so many samples, m; infinite where one of the two has fewer.

@@ -26,13 +26,13 @@ struct LeftOut
 };
 
 /// What changes the answer least goes first; what is left out stays within its share together with the rest.
-LeftOut parts_to_leave_out(Trials& trials, double allowed, std::vector<TriedPart>& tried)
+LeftOut parts_to_leave_out(Trials& trials, const Stepping& stepping, double allowed, std::vector<TriedPart>& tried)
 {
   for (const ModelPart& part : optional_parts())
   {
-    if (part.is_there(trials.params()))
+    if (part.is_there(trials.scene().params))
     {
-      tried.push_back({ part.name, trials.change_without({ part.name }) });
+      tried.push_back({ part.name, trials.change_without({ part.name }, stepping) });
     }
   }
   std::vector<TriedPart> by_change = tried;
@@ -43,7 +43,7 @@ LeftOut parts_to_leave_out(Trials& trials, double allowed, std::vector<TriedPart
   {
     std::vector<std::string> parts = left_out.parts;
     parts.push_back(part.part);
-    const double change = left_out.parts.empty() ? part.change : trials.change_without(parts);
+    const double change = left_out.parts.empty() ? part.change : trials.change_without(parts, stepping);
     if (!(part.change < allowed) || !(change < allowed))
     {
       break;
@@ -58,26 +58,28 @@ LeftOut parts_to_leave_out(Trials& trials, double allowed, std::vector<TriedPart
 Planned plan_by_trial(const StartedScene& scene, StepCosts& costs)
 {
   const double tolerance = scene.params.solver.tolerance;
-  StartedScene planned = scene;
-  Planned result;
   Trials trials(scene, costs);
-  LeftOut left_out;
-  if (scene.params.plan == "auto" && trials.is_coarser())
-  {
-    left_out = parts_to_leave_out(trials, trial_share * tolerance, result.tried);
-    planned.params = without(planned.params, left_out.parts);
-    trials.leave_out(left_out.parts);
-  }
-  StepSearch search(planned, trials, step_share * tolerance, costs);
+  StepSearch search(scene, trials, step_share * tolerance, costs);
   search.run();
   if (!search.best())
   {
     throw SceneError("solver.method: auto, but no method has a stable step for this scene");
   }
+  Planned result;
+  LeftOut left_out;
+  if (scene.params.plan == "auto" && trials.is_coarser())
+  {
+    left_out = parts_to_leave_out(trials, search.best()->on_trials, trial_share * tolerance, result.tried);
+  }
   const Stepping& stepping = search.best()->stepping;
-  result.choice = { left_out.parts, stepping.method,     stepping.time_step,
-                    tolerance,      stepping.iterations, std::hypot(search.error(), left_out.change),
-                    search.cost() };
+  const double method_tolerance = search.best()->row->is_adaptive ? stepping.tolerance : tolerance;
+  result.choice = { left_out.parts,
+                    stepping.method,
+                    stepping.time_step,
+                    method_tolerance,
+                    stepping.iterations,
+                    std::hypot(search.best()->error, left_out.change),
+                    search.best()->cost };
   result.reason = search.reason(tolerance);
   return result;
 }

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include <time.h>
 #include <unistd.h>
 
 #include "cloth_sim/model/wide_vectors.h"
 #include "cloth_sim/scene/yaml_text.h"
+#include "cloth_sim/threads/processor.h"
 
 namespace cloth
 {
@@ -21,23 +21,9 @@ namespace
 constexpr const char* base_method = "velocity_verlet";
 constexpr int rounds = 3;
 /// Seconds of one timing, about, and the steps in it: a simulation looks after itself every 64 steps.
-constexpr double timing = 5e-3;
+constexpr double timing = 5e-4;
 constexpr int least_steps = 2;
 constexpr int most_steps = 64;
-
-std::string processor()
-{
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-  {
-    const size_t colon = line.find(": ");
-    if (line.compare(0, 10, "model name") == 0 && colon != std::string::npos)
-    {
-      return line.substr(colon + 2);
-    }
-  }
-  return "unknown processor";
-}
 
 std::string key_of(const StartedScene& scene, const Stepping& stepping)
 {
@@ -53,14 +39,6 @@ std::string key_of(const StartedScene& scene, const Stepping& stepping)
   return stepping.method + " " + std::to_string(sheet.rows) + " x " + std::to_string(sheet.cols) + " " + parts + " " +
          format_number(stepping.time_step) + " " + std::to_string(stepping.iterations) + " " +
          std::to_string(params.solver.threads);
-}
-
-/// Of this thread: what other programs take does not count.
-double processor_seconds()
-{
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// A few steps at a time of one simulation.
@@ -136,7 +114,7 @@ std::string StepCosts::usual_path()
   {
     return {};
   }
-  std::string machine = processor() + " " + std::to_string(static_cast<int>(vector_width()));
+  std::string machine = processor_name() + " " + std::to_string(static_cast<int>(vector_width()));
   std::replace_if(
       machine.begin(), machine.end(), [](unsigned char letter) { return std::isalnum(letter) == 0; }, '_');
   return folder + "/cloth_sim/step_costs_" + machine + ".yaml";

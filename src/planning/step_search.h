@@ -1,56 +1,17 @@
 #pragma once
 
-#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "cloth_sim/methods/spectrum.h"
-
-#include "scout_errors.h"
-#include "step_costs.h"
-#include "trials.h"
+#include "method_search.h"
 
 namespace cloth
 {
 
-/// A method and its step.
-struct Candidate
-{
-  const MethodRow* row;
-  Stepping stepping;  ///< of the scene itself; time_step 0: as stability allows
-  double time_step;   ///< s
-};
-
-/// What a candidate would err by on the scene itself.
-class CandidateErrors
-{
-public:
-  CandidateErrors(Trials& trials, const ScoutErrors& scout_errors, double grid_allowance);
-
-  /// Estimated by a trial, m.
-  double error_of(const Candidate& candidate);
-
-  /// Whether a longer step of the same method errs by so much that this one cannot come below `allowed` (m).
-  bool is_hopeless(const Candidate& candidate, double allowed) const;
-
-private:
-  struct Known
-  {
-    const MethodRow* row;
-    double time_step;
-    double error;
-  };
-
-  double on_the_coarser_grid(const Candidate& candidate);
-
-  Trials& trials_;
-  const ScoutErrors& scout_errors_;
-  double grid_allowance_;
-  std::vector<Known> known_;
-};
-
-/// Finds the cheapest candidate that errs by `allowed` (m) at most, or what comes nearest to it in real time.
+/// Finds the cheapest method and steps that err by `allowed` (m) at most, or what comes nearest to that in real time.
+/// Trials that may lead to the cheapest come first, so that finding out costs a part of what it leads to.
 class StepSearch
 {
 public:
@@ -63,36 +24,21 @@ public:
   {
     return best_;
   }
-  double error() const
-  {
-    return error_;
-  }
-  double cost() const
-  {
-    return cost_;
-  }
   /// Why it is the best, with numbers.
   std::string reason(double tolerance) const;
 
 private:
-  void search_scout();
-  void search(const MethodRow& row);
-  void take(const Candidate& candidate, double error, double cost);
+  MethodSearch* most_promising() const;
+  bool is_worth_a_trial(const MethodSearch& search) const;
+  void choose();
+  void allow_for_the_grid();
+  std::optional<Candidate> nearest_in_real_time() const;
 
-  const StartedScene& scene_;
-  Trials& trials_;
-  double allowed_;
-  StepCosts& costs_;
-  double grid_allowance_;
-  ScoutErrors scout_errors_;
-  CandidateErrors errors_;
-  Spectrum spectrum_;
-  double evaluation_;  ///< s of work of a step of the scout
+  SearchedScene searched_;
+  std::vector<std::unique_ptr<MethodSearch>> searches_;
+  MethodSearch* scout_ = nullptr;
+  std::vector<Candidate> found_;  ///< the cheapest first
   std::optional<Candidate> best_;
-  double error_ = std::numeric_limits<double>::infinity();
-  double cost_ = std::numeric_limits<double>::infinity();
-  std::string cheaper_;  ///< in words the step before it, which is not exact enough
-  std::string dearer_;   ///< in words the next step, which takes too long
 };
 
 /// As many digits as an estimate is good for.

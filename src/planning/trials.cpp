@@ -19,16 +19,18 @@ constexpr int most_factor = 16;
 constexpr double most_seconds = 3.0;
 constexpr double expected_trials = 12.0;
 
+/// A run that takes this many times what steps of its length take leads to nothing; neither does one that solves
+/// equations where it takes longer than the scout's longest steps, or one that chooses its steps where it takes much
+/// longer.
+constexpr double most_of_own = 8.0;
+constexpr double most_of_scout = 1.0;
+constexpr double most_of_scout_by_tolerance = 50.0;
+
 /// How many samples on are enough to compare the errors of a sheet, which has more modes to be wrong about, with those
 /// of the coarser one of a trial; by how much they may differ, and what is taken where to find out takes too long.
-constexpr int early_samples = 2;
+constexpr int early_samples = 1;
 constexpr double most_allowance = 30.0;
 constexpr double untried_allowance = 3.0;
-
-double scout_step(const StartedScene& scene)
-{
-  return simulation_of(scene, { scout }).time_step();
-}
 
 double nodes_of(const StartedScene& scene)
 {
@@ -66,19 +68,27 @@ StartedScene pilot_of(const StartedScene& scene, int factor)
 const char* const scout = "velocity_verlet";
 
 Trials::Trials(const StartedScene& scene, StepCosts& costs)
-  : scene_(scene)
-  , costs_(costs)
-  , longest_step_(scout_step(scene))
-  , most_work_(Motion::horizon / longest_step_ * nodes_of(scene))
+  : scene_(scene), evaluation_(costs.of_a_step(scene, { scout }))
 {
-  const double seconds_a_run = Motion::horizon / longest_step_ * costs.of_a_step(scene, { scout });
+  const double seconds_a_run = Motion::horizon / simulation_of(scene, { scout }).time_step() * evaluation_;
   pilot_ = pilot_of(scene, coarsening_of(scene, seconds_a_run));
-  longest_step_ = scout_step(pilot_);
+  const Simulation simulation = simulation_of(pilot_, { scout });
+  spectrum_ = spectrum_of(simulation.dynamics(), simulation.state().positions);
 }
 
 bool Trials::is_coarser() const
 {
   return nodes_of(pilot_) < nodes_of(scene_);
+}
+
+double Trials::longest_step(const MethodRow& row) const
+{
+  return Simulation::limit_share * network_stability_limit(row, spectrum_);
+}
+
+double Trials::seconds_of_a_run(double time_step, double evaluations_a_step) const
+{
+  return Motion::horizon / time_step * evaluations_a_step * evaluation_ * nodes_of(pilot_) / nodes_of(scene_);
 }
 
 double Trials::coarseness() const
@@ -91,40 +101,30 @@ double Trials::coarseness() const
   return std::max(ratio(fine.rows - 1, coarse.rows - 1), ratio(fine.cols - 1, coarse.cols - 1));
 }
 
-double Trials::grid_allowance()
+double Trials::grid_allowance(const Stepping& stepping, const Stepping& on_trial)
 {
   if (!is_coarser())
   {
     return 1.0;
   }
-  const double step = scout_step(scene_);
-  const double seconds_a_run = Motion::horizon / step * costs_.of_a_step(scene_, { scout });
-  if (3.0 * seconds_a_run * early_samples / Motion::samples > most_seconds)
+  if (3.0 * Motion::horizon / stepping.time_step * evaluation_ * early_samples / Motion::samples > most_seconds)
   {
     return untried_allowance;
   }
-  const auto error_on = [&](const StartedScene& scene) {
-    return distance(run(scene, { scout, step }, early_samples), run(scene, { scout, 0.5 * step }, early_samples),
-                    early_samples);
+  const auto error_on = [&](const StartedScene& scene, Stepping steps) {
+    const Motion at_given = run(scene, steps, early_samples);
+    steps.time_step *= 0.5;
+    return distance(at_given, run(scene, steps, early_samples), early_samples);
   };
-  const double ratio = error_on(scene_) / error_on(pilot_);
+  const double ratio = error_on(scene_, stepping) / error_on(pilot_, on_trial);
   return std::isfinite(ratio) ? std::clamp(ratio, 1.0, most_allowance) : most_allowance;
 }
 
-double Trials::change_without(const std::vector<std::string>& parts)
+double Trials::change_without(const std::vector<std::string>& parts, const Stepping& stepping)
 {
   StartedScene lesser = pilot_;
   lesser.params = without(lesser.params, parts);
-  const Stepping stepping{ scout, longest_step_ };
   return distance(motion(stepping), run(lesser, stepping));
-}
-
-void Trials::leave_out(const std::vector<std::string>& parts)
-{
-  scene_.params = without(scene_.params, parts);
-  pilot_.params = without(pilot_.params, parts);
-  motions_.clear();
-  longest_step_ = scout_step(pilot_);
 }
 
 const Motion& Trials::motion(const Stepping& stepping)
@@ -137,12 +137,13 @@ const Motion& Trials::motion(const Stepping& stepping)
 
 Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samples)
 {
-  constexpr double margin = 50.0;
-  const auto most_steps = static_cast<std::uint64_t>(margin * Motion::horizon / longest_step_);
-  Motion motion = motion_of(scene, stepping, most_steps, samples);
-  const Simulation::Counters& counters = motion.counters;
-  work_ += static_cast<double>(counters.force_evaluations + counters.linear_iterations + counters.limit_sweeps) *
-           nodes_of(scene);
+  const MethodRow& row = *find_method(stepping.method);
+  const double of_scout = Motion::horizon / longest_step(*find_method(scout));
+  const double most = row.is_adaptive       ? most_of_scout_by_tolerance * of_scout :
+                      row.linear_solves > 0 ? most_of_scout * of_scout :
+                                              most_of_own * row.force_evaluations * Motion::horizon / stepping.time_step;
+  Motion motion = motion_of(scene, stepping, most, samples);
+  seconds_ += evaluations_in(motion.counters) * evaluation_ * nodes_of(scene) / nodes_of(scene_);
   return motion;
 }
 

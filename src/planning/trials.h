@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "cloth_sim/methods/spectrum.h"
+
 #include "pilot.h"
 #include "started_scene.h"
 #include "step_costs.h"
@@ -11,7 +13,7 @@
 namespace cloth
 {
 
-/// The method that finds out: no other explicit one is as cheap for its order.
+/// The method that others are held against: no other explicit one is as cheap for its order.
 extern const char* const scout;
 
 /// All trial runs of a scene, on a coarser grid where that is cheaper.
@@ -21,52 +23,55 @@ public:
   /// Throws SceneError where the scene cannot be stepped.
   Trials(const StartedScene& scene, StepCosts& costs);
 
-  /// Parts are tried only where that costs less than they may save in a run or two.
+  /// Whether they are on a coarser grid than the scene's. On its own, what parts save is not worth the trials.
   bool is_coarser() const;
 
   /// How much longer the cells are than the scene's.
   double coarseness() const;
 
-  /// The scout's longest step on the coarser grid, s.
-  double longest_step() const
+  /// The longest step on the coarser grid that a method may take at any time, s; infinite: any.
+  double longest_step(const MethodRow& row) const;
+
+  /// Of a run with steps of this length, s of work: those of as many evaluations of the forces.
+  double seconds_of_a_run(double time_step, double evaluations_a_step) const;
+
+  /// The work of all runs so far, s, counted and not timed, so that the same scene is planned alike whatever else the
+  /// machine does.
+  double seconds() const
   {
-    return longest_step_;
+    return seconds_;
   }
 
-  /// By what factor the scout errs more on the sheet itself than on the coarser grid, early on and with the same steps.
-  double grid_allowance();
-
-  /// By how much the answer changes without these parts, m; infinite where they are all that keeps it together.
-  double change_without(const std::vector<std::string>& parts);
-
-  /// The parts that the scene still has.
-  const SceneParams& params() const
+  /// Of one evaluation of the forces on the scene's own grid, s of work.
+  double evaluation() const
   {
-    return scene_.params;
+    return evaluation_;
   }
 
-  /// From now on all runs are without these parts.
-  void leave_out(const std::vector<std::string>& parts);
+  /// By what factor these steps err more on the sheet itself than `on_trial` does on the coarser grid, early on.
+  double grid_allowance(const Stepping& stepping, const Stepping& on_trial);
 
-  /// The motion on the coarser grid.
+  /// By how much the answer by these steps changes without the parts, m; infinite where they are all that keeps it
+  /// together.
+  double change_without(const std::vector<std::string>& parts, const Stepping& stepping);
+
+  /// The motion on the coarser grid. Cut off where it takes several times as long as the scout's at the same steps, or
+  /// longer than the scout's at its longest ones where it solves equations.
   const Motion& motion(const Stepping& stepping);
 
-  /// What all trials may cost is used up: a tenth of what the scout makes of ten seconds, in work done on nodes, so
-  /// that the same scene is planned alike whatever else the machine does.
-  bool are_over() const
+  const StartedScene& scene() const
   {
-    return work_ > most_work_;
+    return scene_;
   }
 
 private:
   Motion run(const StartedScene& scene, const Stepping& stepping, int samples = Motion::samples);
 
   StartedScene scene_;
-  StepCosts& costs_;
   StartedScene pilot_;
-  double longest_step_;
-  double most_work_;
-  double work_ = 0.0;
+  double evaluation_;
+  Spectrum spectrum_;  ///< of the coarser grid
+  double seconds_ = 0.0;
   std::map<std::string, Motion> motions_;
 };
 

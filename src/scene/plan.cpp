@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cloth_sim/scene/pin_selection.h"
 #include "cloth_sim/scene/scene_reader.h"
@@ -191,6 +192,62 @@ PlanLine sleep_line(const SceneParams& scene)
                " m, a quarter of the tolerance" };
 }
 
+constexpr const char* error_part = "error watch";
+/// What is run again takes twice as long besides; a node has other things to do as well.
+constexpr double most_cost_to_check = 0.3;
+/// Steps may take so much of real time.
+constexpr double most_cost = 0.5;
+constexpr double longest_chosen_step = 1.0 / 30.0;  // s
+
+/// In words why the steps of a choice are not checked while they run; empty: they are.
+std::string reason_for_no_checks(const SceneParams& scene, const Choice& choice)
+{
+  if (scene.solver.method != automatic)
+  {
+    return "solver.method is " + scene.solver.method + ", not auto";
+  }
+  if (find_method(choice.method) != nullptr && find_method(choice.method)->is_adaptive)
+  {
+    return choice.method + " watches each of its steps";
+  }
+  if (!(choice.cost <= most_cost_to_check))
+  {
+    return std::isnan(choice.cost) ? "nothing was tried" :
+                                     "steps of " + in_two_digits(choice.cost) +
+                                         " s of work a second leave no time to run any of them again";
+  }
+  return {};
+}
+
+/// What cannot be had is not asked for again while it runs.
+double watched_tolerance(const SceneParams& scene, const Choice& choice)
+{
+  return choice.error > scene.solver.tolerance ? 2.0 * choice.error : scene.solver.tolerance;
+}
+
+PlanLine error_line(const SceneParams& scene, const Choice& choice)
+{
+  const std::string reason = reason_for_no_checks(scene, choice);
+  if (!reason.empty())
+  {
+    return { error_part, false, reason };
+  }
+  return { error_part, true,
+           "now and then a second is run again by half steps; they are corrected where they err by more than " +
+               in_two_digits(watched_tolerance(scene, choice)) + " m" };
+}
+
+ErrorBounds error_bounds(const SceneParams& scene, const Choice& choice)
+{
+  if (!reason_for_no_checks(scene, choice).empty())
+  {
+    return {};
+  }
+  const double given = scene.solver.time_step;
+  return { watched_tolerance(scene, choice), std::min(1.0, choice.cost / most_cost),
+           given > 0.0 ? given : longest_chosen_step };
+}
+
 Planned planned_for(const SceneParams& scene, const SceneStart& start)
 {
   if (scene.solver.method != automatic)
@@ -269,6 +326,7 @@ Plan plan_with(const SceneParams& scene, const ClothModel& model, const SceneSta
     pin_line(pins_of(scene.pins, model, model.rest_positions)),
     { start_part, true, start.description },
     { method_part, true, planned.reason },
+    error_line(scene, plan.choice),
     sleep_line(scene),
   };
   for (PlanLine& line : plan.lines)
@@ -299,6 +357,7 @@ SimulationSetup setup_of(const Plan& plan)
   setup.start = plan.start;
   setup.start_is_settled = plan.start_is_settled;
   setup.sleep_distance = plan.sleep_distance;
+  setup.error_bounds = error_bounds(plan.asked, plan.choice);
   setup.pins = pins_of(scene.pins, setup.model, setup.start.positions);
   return setup;
 }
@@ -420,6 +479,11 @@ std::string described_step(const Plan& plan, const Simulation& simulation, doubl
            "; steps beyond its stability limit, " + limit + ", would be rejected";
   }
   const std::string step = format_number(simulation.time_step()) + " s, ";
+  const std::optional<double>& corrected = simulation.error_watch().corrected_step();
+  if (corrected && *corrected == simulation.time_step())
+  {
+    return step + "as a check of the error has corrected it; the stability limit of " + name + " is " + limit;
+  }
   if (given > 0.0 && plan.keeps_within_limit)
   {
     return step + "as chosen, and never above " + format_number(Simulation::limit_share) +
@@ -466,6 +530,12 @@ std::vector<std::string> describe(const Plan& plan, const Simulation& simulation
     if (line.part == sleep_part && simulation.asleep_since())
     {
       lines.back() += "; asleep since " + format_number(*simulation.asleep_since()) + " s";
+    }
+    const std::optional<ErrorWatch::Finding>& finding = simulation.error_watch().finding();
+    if (line.part == error_part && finding)
+    {
+      lines.back() += "; in the second before " + format_number(finding->time) + " s those of " +
+                      in_two_digits(finding->step) + " s erred by " + in_two_digits(finding->error) + " m";
     }
   }
   lines.push_back("threads: " + described_threads(simulation));

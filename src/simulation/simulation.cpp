@@ -9,6 +9,8 @@
 
 #include "cloth_sim/methods/spectrum.h"
 
+#include "whole_step.h"
+
 namespace cloth
 {
 namespace
@@ -41,6 +43,7 @@ Simulation::Simulation(SimulationSetup setup)
   , given_share_(setup.keeps_within_limit ? limit_share : std::numeric_limits<double>::infinity())
   , state_(std::move(setup.start))
   , rest_watch_(setup.sleep_distance)
+  , error_watch_(setup.error_bounds, method_row_, setup.method_settings, state_.time)
 {
   if (method_row_ == nullptr)
   {
@@ -102,21 +105,9 @@ void Simulation::step(double h)
   const double begin = state_.time;
   const PartCalls calls_before = part_calls();
   method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
-  const bool has_tensions = strain_limit_.active() && strain_limit_.properties().solver == LimitSolver::tensions;
-  method_->limit_strain(has_tensions ? strain_limit_.max_strain_for(model(), pins(), state_.positions) : 0.0,
-                        strain_limit_.properties().sweeps);
-  const StepReport report = method_->step(dynamics_, h, state_);
+  const StepReport report = take_whole_step(*method_, strain_limit_, dynamics_, h, state_,
+                                            measures_reactions_ ? &impulses_ : nullptr);
   last_step_ = state_.time - begin;
-  if (strain_limit_.active())
-  {
-    const StrainLimit::Report limit_report =
-        strain_limit_.apply(model(), pins(), last_step_, state_, measures_reactions_ ? &impulses_ : nullptr);
-    if (limit_report.moved)
-    {
-      method_->restart();
-    }
-    counters_.limit_sweeps += static_cast<std::uint64_t>(limit_report.sweeps);
-  }
   counters_.limit_sweeps += static_cast<std::uint64_t>(report.limit_sweeps);
   counters_.force_evaluations += static_cast<std::uint64_t>(report.force_evaluations);
   counters_.linear_solves += static_cast<std::uint64_t>(report.linear_solves);
@@ -175,6 +166,7 @@ void Simulation::sleep_where_at_rest()
   state_.velocities.setZero();
   last_good_ = state_;
   method_ = method_row_->make(method_settings_);
+  error_watch_.state_changed();
 }
 
 void Simulation::wake()
@@ -196,6 +188,7 @@ void Simulation::take_equal_steps(double time, double longest)
     step(h);
     state_.time = s == steps ? time : begin + static_cast<double>(s) * h;
     rest_watch_.look(state_);
+    error_watch_.look(dynamics_, strain_limit_, h, state_);
   }
 }
 
@@ -232,6 +225,7 @@ void Simulation::changed_from_outside()
   last_good_ = state_;
   asleep_since_.reset();
   rest_watch_.begin(dynamics_, state_);
+  error_watch_.state_changed();
 }
 
 double Simulation::stability_limit() const
@@ -255,10 +249,11 @@ double Simulation::longest_step() const
 
 double Simulation::limited_step() const
 {
-  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_);
-  if (given_time_step_ > 0.0 && given_time_step_ <= given_share_ * limit)
+  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_, counters_.steps);
+  const double wanted = error_watch_.corrected_step().value_or(given_time_step_);
+  if (wanted > 0.0 && wanted <= given_share_ * limit)
   {
-    return given_time_step_;
+    return wanted;
   }
   return std::isfinite(limit) ? limit_share * limit : unlimited_time_step;
 }
@@ -332,6 +327,7 @@ void Simulation::set_wind(const Eigen::Vector3d& wind)
     return;
   }
   method_->restart();
+  error_watch_.forces_changed();
   guard_.open(dynamics_, state_);
 }
 
@@ -406,6 +402,7 @@ void Simulation::pins_sent_elsewhere()
   wake();
   rest_watch_.begin(dynamics_, state_);
   method_->restart();
+  error_watch_.forces_changed();
   guard_.allow_pin_motion(dynamics_);
 }
 

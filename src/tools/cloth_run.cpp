@@ -1,7 +1,6 @@
 // Runs a scene without ROS: cloth_run SCENE.yaml [options], see run_options.cpp.
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -21,15 +20,6 @@ namespace
 constexpr int done = 0;
 constexpr int diverged = 1;
 constexpr int bad_usage = 2;
-
-/// Ends the program as the signal does by itself, without a file left half written. At once, because the next sample
-/// may be minutes away.
-void end_without_traces(int signal)
-{
-  cloth::ReplacedFile::remove_uncommitted();
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
 
 cloth::SceneParams read_scene_with_settings(const cloth::RunOptions& options)
 {
@@ -189,8 +179,7 @@ int main(int argc, char** argv)
       std::cout << cloth::run_usage;
       return done;
     }
-    std::signal(SIGINT, end_without_traces);
-    std::signal(SIGTERM, end_without_traces);
+    cloth::ReplacedFile::remove_uncommitted_when_ended();
     return run(options);
   }
   catch (const cloth::UsageError& error)

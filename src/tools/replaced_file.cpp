@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -41,6 +42,14 @@ void exchange_path(const char* from, const char* to)
       return;
     }
   }
+}
+
+/// At once, because what the program would ask next may be minutes away.
+void end_without_traces(int signal)
+{
+  ReplacedFile::remove_uncommitted();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
 }
 
 }  // namespace
@@ -101,6 +110,14 @@ void ReplacedFile::remove_uncommitted() noexcept
     {
       ::unlink(written);
     }
+  }
+}
+
+void ReplacedFile::remove_uncommitted_when_ended()
+{
+  for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+  {
+    std::signal(signal, end_without_traces);
   }
 }
 

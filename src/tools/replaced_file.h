@@ -25,8 +25,11 @@ public:
   /// Throws std::runtime_error where not all could be written.
   void commit();
 
-  /// Removes what every file not yet committed has written beside its path. For signal handlers that end the program.
+  /// Removes what every file not yet committed has written beside its path. May be called by signal handlers.
   static void remove_uncommitted() noexcept;
+
+  /// From now on SIGINT, SIGTERM and SIGHUP do that before they end the program, as they would without.
+  static void remove_uncommitted_when_ended();
 
 private:
   bool is_beside_its_path() const

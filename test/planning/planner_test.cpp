@@ -14,7 +14,7 @@ namespace cloth
 namespace
 {
 
-constexpr std::uint64_t any_number = 100000000;
+constexpr double any_number = 1e12;
 
 StartedScene started(const std::string& yaml)
 {

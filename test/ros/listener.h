@@ -17,7 +17,8 @@ namespace cloth
 /// Generous: only a test that fails waits so long.
 constexpr std::chrono::seconds patience{ 20 };
 
-/// Runs callbacks until `condition` holds; false: it did not in time.
+/// Runs callbacks until `condition` holds, which is asked after each of them: none that comes later has run then. False:
+/// it did not in time.
 inline bool wait_until(const std::function<bool()>& condition)
 {
   const auto end = std::chrono::steady_clock::now() + patience;
@@ -27,7 +28,7 @@ inline bool wait_until(const std::function<bool()>& condition)
     {
       return false;
     }
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.005));
+    ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.005));
   }
   return true;
 }
@@ -77,15 +78,9 @@ public:
   {
     size_t seen = messages_.size();
     return wait_until([&] {
-      for (; seen < messages_.size(); ++seen)
-      {
-        if (condition(messages_[seen]))
-        {
-          messages_.resize(seen + 1);
-          return true;
-        }
-      }
-      return false;
+      const bool is_new = messages_.size() > seen;
+      seen = messages_.size();
+      return is_new && condition(messages_.back());
     });
   }
 

@@ -32,6 +32,9 @@ struct Spectrum
 /// Where the bound of `stiffness_bound` is lower, that is taken.
 Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions);
 
+/// The same where a bound for omega^2, 1/s2, is known.
+Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions, double stiffness);
+
 /// A bound that holds for omega^2, 1/s2, at the price of two force evaluations: each spring's 6 x 6 matrix [A -A; -A A]
 /// is at most twice its diagonal blocks, so no eigenvalue of M^-1 K exceeds the largest of 2/m_i times that of node
 /// i's block, the sum of A over its springs. Exact inside a flat uniform sheet, up to 1.5 times too large on shipped

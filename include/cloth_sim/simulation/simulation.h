@@ -16,6 +16,7 @@
 #include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/simulation/divergence_guard.h"
 #include "cloth_sim/simulation/energy.h"
+#include "cloth_sim/simulation/error_watch.h"
 #include "cloth_sim/simulation/rest_watch.h"
 #include "cloth_sim/simulation/stability_watch.h"
 
@@ -39,6 +40,7 @@ struct SimulationSetup
   ClothState start;
   bool start_is_settled = false;  ///< `settle` found it, and nothing was changed since
   double sleep_distance = 0.0;    ///< m; it sleeps where going on would move no node farther; 0: never
+  ErrorBounds error_bounds;       ///< steps of a method that does not choose them are corrected to keep these
 };
 
 /// A force and its torque.
@@ -128,6 +130,11 @@ public:
   {
     return asleep_since_;
   }
+  /// Checks of what the steps err by, and the step that they have led to.
+  const ErrorWatch& error_watch() const
+  {
+    return error_watch_;
+  }
   /// The divergence in words: when, which node, the step and the stability limit, what to change. Empty: none.
   std::string divergence_report() const;
 
@@ -196,6 +203,7 @@ private:
   Counters counters_;
   mutable StabilityWatch stability_watch_;
   RestWatch rest_watch_;
+  ErrorWatch error_watch_;
   std::optional<double> asleep_since_;
 
   bool measures_reactions_ = false;

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "trials.h"
+
+namespace cloth
+{
+
+/// How exact a method is on the grid of the trials, at steps that are halved again and again.
+class MethodErrors
+{
+public:
+  /// What other runs are held against.
+  struct Reference
+  {
+    const Motion* motion = nullptr;
+    double error = std::numeric_limits<double>::infinity();  ///< of itself, estimated, m
+  };
+
+  /// `stepping` is the one with the longest step (s). With a reference each run's error is its distance from that;
+  /// without, it follows from how the runs differ among each other.
+  MethodErrors(Trials& trials, int order, const Stepping& stepping, const Reference& reference);
+
+  /// Runs the longest step first, then half the step before.
+  void run_next();
+
+  /// Whether there is an error at any step: two runs without a reference, one with it.
+  bool is_known() const;
+
+  /// Whether the errors fall as they do where steps are short enough for the method's order to show.
+  bool falls() const;
+
+  /// The motion parts from itself: shorter steps do not bring it nearer to anything.
+  bool is_at_its_floor() const;
+
+  double finest_step() const
+  {
+    return steps_.back();
+  }
+  const Motion& finest() const;
+  double error_of_finest() const;
+
+  /// Estimated at any step (s), m; a straight line in logarithms.
+  double error_of(double time_step) const;
+
+  /// The longest step, s, no longer than the longest one run, whose error is `allowed` (m); below the shortest one run
+  /// as errors fall between the last two.
+  double step_for(double allowed) const;
+
+private:
+  double error_at(size_t run) const;
+  /// Of the line through the last two errors that say something about `time_step`.
+  double slope(size_t next) const;
+
+  Trials& trials_;
+  int order_;
+  Stepping stepping_;
+  Reference reference_;
+  std::vector<double> steps_;        ///< s
+  std::vector<double> differences_;  ///< m; of a run from the reference, or from the run at half its step
+};
+
+}  // namespace cloth

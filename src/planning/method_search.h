@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "cloth_sim/methods/spectrum.h"
+
+#include "method_errors.h"
+#include "step_costs.h"
+#include "trials.h"
+
+namespace cloth
+{
+
+/// Errors that differ by less than this factor are the same.
+constexpr double level_errors = 1.25;
+
+/// A method and its steps.
+struct Candidate
+{
+  const MethodRow* row;
+  Stepping stepping;   ///< of the scene itself; time_step 0: as stability allows
+  double time_step;    ///< s; of a method that chooses its steps, their mean
+  double error;        ///< estimated, m
+  double cost;         ///< s of work for a simulated second
+  Stepping on_trials;  ///< the same on the coarser grid, with steps as long as that allows
+  double stretch;      ///< how much longer a step there does the same
+};
+
+/// What all searches of a scene share.
+struct SearchedScene
+{
+  const StartedScene& scene;
+  Spectrum spectrum;  ///< of its sheet at the start
+  double allowed;     ///< m; what a candidate may err by
+  Trials& trials;
+  StepCosts& costs;
+};
+
+/// Looks for the cheapest steps of one method that are exact enough, a trial at a time and the cheapest trials first.
+class MethodSearch
+{
+public:
+  virtual ~MethodSearch() = default;
+
+  /// Nothing more can come of it.
+  virtual bool is_over() const = 0;
+
+  /// s of work for a simulated second: what is found by the next trial will hardly cost less.
+  virtual double least_cost() const = 0;
+
+  /// Of the next trial, s of work.
+  virtual double trial_cost() const = 0;
+
+  virtual void try_next(const MethodErrors::Reference& reference) = 0;
+
+  /// The cheapest steps that are exact enough.
+  virtual std::optional<Candidate> found() const = 0;
+
+  /// The most exact of the steps that cost no more than so much.
+  virtual std::optional<Candidate> nearest(double most_cost) const = 0;
+
+  /// Its most exact run so far.
+  virtual MethodErrors::Reference reference() const = 0;
+
+  /// Halving the steps does not help: the motion parts from itself.
+  virtual bool is_at_its_floor() const
+  {
+    return false;
+  }
+};
+
+/// None: no step of the method is stable.
+std::unique_ptr<MethodSearch> search_of(const MethodRow& row, const SearchedScene& searched);
+
+}  // namespace cloth

@@ -1,0 +1,99 @@
+// A limit that is asked for often follows the sheet, and is never too large.
+
+#include <gtest/gtest.h>
+
+#include "cloth_sim/methods/spectrum.h"
+#include "cloth_sim/simulation/stability_watch.h"
+#include "support.h"
+
+namespace cloth
+{
+namespace
+{
+
+class StabilityWatchTest : public testing::Test
+{
+protected:
+  static Dynamics dynamics_of(const SceneParams& scene)
+  {
+    return { make_sheet(scene.sheet), scene.gravity, scene.air };
+  }
+
+  double exact_limit() const
+  {
+    return network_stability_limit(method_, spectrum_of(dynamics_, state_.positions));
+  }
+  double limit_after(std::uint64_t steps)
+  {
+    return watch_.limit(method_, dynamics_, state_, steps);
+  }
+  void stretch(double factor)
+  {
+    state_.positions *= factor;
+  }
+
+  const MethodRow& method_ = *find_method("velocity_verlet");
+  Dynamics dynamics_ = dynamics_of(shipped_scene("free_sheet"));
+  ClothState state_{ dynamics_.model().rest_positions, Vectors::Zero(dynamics_.model().nodes(), 3), 0.0 };
+  StabilityWatch watch_;
+};
+
+TEST_F(StabilityWatchTest, IsExactAtFirstAndWhenItWasForgotten)
+{
+  EXPECT_DOUBLE_EQ(limit_after(0), exact_limit());
+  stretch(2.0);
+  watch_.forget();
+  EXPECT_DOUBLE_EQ(limit_after(1), exact_limit());
+}
+
+TEST_F(StabilityWatchTest, LooksEvery64Steps)
+{
+  const double before = limit_after(0);
+  stretch(2.0);
+  EXPECT_EQ(limit_after(63), before);
+  EXPECT_LT(limit_after(64), 0.95 * before);
+}
+
+TEST_F(StabilityWatchTest, OfTheBoundIsNeitherTooLargeNorFarTooSmall)
+{
+  limit_after(0);
+  Noise noise;
+  state_.positions += 0.01 * noise.vectors(dynamics_.model().nodes());
+  stretch(2.0);
+  const double of_bound = limit_after(64);
+  EXPECT_LE(of_bound, exact_limit());
+  EXPECT_GE(of_bound, 0.75 * exact_limit());
+}
+
+TEST_F(StabilityWatchTest, IsWorkedOutFromTheSpectrumAgainAfter512Steps)
+{
+  limit_after(0);
+  Noise noise;
+  state_.positions += 0.01 * noise.vectors(dynamics_.model().nodes());
+  stretch(2.0);
+  limit_after(64);
+  EXPECT_DOUBLE_EQ(limit_after(64 + 512), exact_limit());
+}
+
+TEST_F(StabilityWatchTest, GrowsAgainWhereTheSheetIsSlackAgain)
+{
+  const double slack = limit_after(0);
+  stretch(2.0);
+  EXPECT_LT(limit_after(64), 0.75 * slack);
+  stretch(0.5);
+  EXPECT_GT(limit_after(128), 0.8 * slack);
+}
+
+TEST_F(StabilityWatchTest, IsWorkedOutAnewWhenItIsOld)
+{
+  Noise noise;
+  const Vectors flat = state_.positions;
+  state_.positions += 0.03 * noise.vectors(dynamics_.model().nodes());
+  limit_after(0);
+  state_.positions = flat;
+  state_.time = 0.21;
+  EXPECT_LE(limit_after(64), exact_limit());
+}
+
+}  // namespace
+}  // namespace cloth
