@@ -19,6 +19,8 @@ constexpr double least_of_finest = 0.5;
 constexpr double evaluations_of_a_solve = 300.0;
 /// What a pass takes that handles springs one after the other, likewise.
 constexpr double evaluations_of_an_iteration = 3.0;
+/// By how much errors of long steps that damp what they should not fall faster than the order says.
+constexpr double order_of_lost_damping = 0.5;
 /// A reference errs by no more than this part of what may be erred by.
 constexpr double reference_share = 0.25;
 
@@ -26,15 +28,10 @@ constexpr double reference_share = 0.25;
 class StepLengthSearch : public MethodSearch
 {
 public:
-  StepLengthSearch(const MethodRow& row, const SearchedScene& searched, double limit)
-    : row_(row), searched_(searched), is_limited_(std::isfinite(limit))
+  StepLengthSearch(const MethodRow& row, const SearchedScene& searched)
+    : row_(row), searched_(searched), is_limited_(std::isfinite(likely_limit(row, searched.spectrum)))
   {
-    const double given = searched.scene.params.solver.time_step;
-    longest_ = is_limited_ ? Simulation::limit_share * limit : longest_step;
-    is_given_ = given > 0.0 && given < longest_;
-    longest_ = is_given_ ? given : longest_;
-    const double of_trials = is_limited_ ? searched.trials.longest_step(row) : longest_trial_step;
-    longest_on_trials_ = std::min(is_given_ ? longest_ * stretch() : of_trials, of_trials);
+    take_limits(likely_limit(row, searched.spectrum), searched.trials.likely_limit(row));
   }
 
   bool is_over() const override
@@ -49,7 +46,8 @@ public:
       return longest_ >= Simulation::shortest_step ? cost_of(longest_) : std::numeric_limits<double>::infinity();
     }
     const double error = errors_->error_of_finest();
-    const double falls_best = std::isfinite(error) ? std::pow(searched_.allowed / error, 1.0 / row_.order) : 0.5;
+    const double steepest = row_.iterates_locally ? row_.order + order_of_lost_damping : row_.order;
+    const double falls_best = std::isfinite(error) ? std::pow(searched_.allowed / error, 1.0 / steepest) : 0.5;
     return cost_of(std::min(longest_, errors_->finest_step() / stretch() * std::min(1.0, falls_best)));
   }
 
@@ -63,6 +61,12 @@ public:
   {
     if (!errors_)
     {
+      take_limits(network_stability_limit(row_, searched_.spectrum), searched_.trials.limit(row_));
+      if (!(longest_ >= Simulation::shortest_step))
+      {
+        is_over_ = true;
+        return;
+      }
       const bool is_exact_enough = reference.error < reference_share * searched_.allowed;
       errors_.emplace(searched_.trials, row_.order, stepping_of(longest_on_trials_),
                       is_exact_enough ? reference : MethodErrors::Reference{});
@@ -109,6 +113,16 @@ public:
   }
 
 private:
+  void take_limits(double limit, double limit_of_trials)
+  {
+    const double given = searched_.scene.params.solver.time_step;
+    longest_ = is_limited_ ? Simulation::limit_share * limit : longest_step;
+    is_given_ = given > 0.0 && given < longest_;
+    longest_ = is_given_ ? given : longest_;
+    const double of_trials = is_limited_ ? Simulation::limit_share * limit_of_trials : longest_trial_step;
+    longest_on_trials_ = std::min(is_given_ ? longest_ * stretch() : of_trials, of_trials);
+  }
+
   /// How much longer a step on the coarser grid does the same.
   double stretch() const
   {
@@ -184,11 +198,11 @@ private:
 class ToleranceSearch : public MethodSearch
 {
 public:
-  ToleranceSearch(const MethodRow& row, const SearchedScene& searched, double limit)
+  ToleranceSearch(const MethodRow& row, const SearchedScene& searched)
     : row_(row)
     , searched_(searched)
-    , longest_(limit)
-    , shrinkage_(std::max(1.0, searched.trials.longest_step(row) / Simulation::limit_share / limit))
+    , longest_(likely_limit(row, searched.spectrum))
+    , shrinkage_(std::max(1.0, searched.trials.likely_limit(row) / longest_))
     , tolerance_(first_tolerance * searched.allowed)
   {
   }
@@ -283,16 +297,15 @@ private:
 
 std::unique_ptr<MethodSearch> search_of(const MethodRow& row, const SearchedScene& searched)
 {
-  const double limit = network_stability_limit(row, searched.spectrum);
-  if (!(limit >= Simulation::shortest_step))
+  if (!(likely_limit(row, searched.spectrum) >= Simulation::shortest_step))
   {
     return nullptr;
   }
   if (row.is_adaptive)
   {
-    return std::make_unique<ToleranceSearch>(row, searched, limit);
+    return std::make_unique<ToleranceSearch>(row, searched);
   }
-  return std::make_unique<StepLengthSearch>(row, searched, limit);
+  return std::make_unique<StepLengthSearch>(row, searched);
 }
 
 }  // namespace cloth

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,8 @@ namespace
 {
 
 constexpr const char* base_method = "velocity_verlet";
+/// Between what was measured and its seconds, in a line of the file.
+const std::string separator = ": ";
 constexpr int rounds = 3;
 /// Seconds of one timing, about, and the steps in it: a simulation looks after itself every 64 steps.
 constexpr double timing = 5e-4;
@@ -29,6 +32,7 @@ std::string key_of(const StartedScene& scene, const Stepping& stepping)
 {
   const SceneParams& params = scene.params;
   const SheetProperties& sheet = params.sheet;
+  const bool solves_equations = find_method(stepping.method)->linear_solves > 0;
   std::string parts;
   for (const SpringProperties& kind : { sheet.structural, sheet.shear, sheet.flex })
   {
@@ -37,7 +41,7 @@ std::string key_of(const StartedScene& scene, const Stepping& stepping)
   parts += params.air.wind_coupling == 0.0 ? "" : " wind";
   parts += params.strain_limit.max_strain == 0.0 ? "" : " limit";
   return stepping.method + " " + std::to_string(sheet.rows) + " x " + std::to_string(sheet.cols) + " " + parts + " " +
-         format_number(stepping.time_step) + " " + std::to_string(stepping.iterations) + " " +
+         (solves_equations ? format_number(stepping.time_step) + " " : "") + std::to_string(stepping.iterations) + " " +
          std::to_string(params.solver.threads);
 }
 
@@ -82,24 +86,15 @@ double median(std::array<double, rounds> numbers)
 
 StepCosts::StepCosts(std::string path) : path_(std::move(path))
 {
-  if (path_.empty() || !std::filesystem::exists(path_))
+  std::ifstream file(path_);
+  for (std::string line; std::getline(file, line);)
   {
-    return;
-  }
-  try
-  {
-    for (const auto& entry : YAML::LoadFile(path_))
+    const size_t end = line.rfind(separator);
+    const double seconds = end == std::string::npos ? 0.0 : std::strtod(line.c_str() + end + separator.size(), nullptr);
+    if (seconds > 0.0 && std::isfinite(seconds))
     {
-      const double seconds = entry.second.as<double>();
-      if (seconds > 0.0)
-      {
-        seconds_[entry.first.as<std::string>()] = seconds;
-      }
+      seconds_[line.substr(0, end)] = seconds;
     }
-  }
-  catch (const YAML::Exception&)
-  {
-    seconds_.clear();
   }
 }
 
@@ -117,7 +112,7 @@ std::string StepCosts::usual_path()
   std::string machine = processor_name() + " " + std::to_string(static_cast<int>(vector_width()));
   std::replace_if(
       machine.begin(), machine.end(), [](unsigned char letter) { return std::isalnum(letter) == 0; }, '_');
-  return folder + "/cloth_sim/step_costs_" + machine + ".yaml";
+  return folder + "/cloth_sim/step_costs_" + machine + ".txt";
 }
 
 double StepCosts::of_a_step(const StartedScene& scene, const Stepping& stepping)
@@ -170,7 +165,7 @@ void StepCosts::keep()
     std::ofstream file(unfinished);
     for (const auto& [key, seconds] : seconds_)
     {
-      file << '"' << key << "\": " << format_number(seconds) << '\n';
+      file << key << separator << format_number(seconds) << '\n';
     }
     if (!file)
     {

@@ -20,6 +20,11 @@ constexpr double expected_run = 10.0;
 /// What trials may take while nothing is found, in parts of such a run by the scout.
 constexpr double most_trials = 0.2;
 
+/// How many samples are enough to compare a sheet's errors with those of a coarser one, unless they are larger than
+/// this part of what they may be.
+constexpr int early_samples = 2;
+constexpr double critical_share = 0.1;
+
 std::string in_words(const Candidate& candidate)
 {
   const std::string steps = candidate.row->is_adaptive ?
@@ -156,23 +161,45 @@ std::optional<Candidate> StepSearch::nearest_in_real_time() const
   return nearest == candidates.end() ? std::nullopt : std::optional<Candidate>(*nearest);
 }
 
-/// A sheet has more modes to be wrong about than the coarser one of the trials.
+/// A sheet has more modes to be wrong about than the coarser one of the trials. What is the cheapest may be another then.
 void StepSearch::allow_for_the_grid()
 {
-  const bool was_exact_enough = best_->error <= searched_.allowed;
   Stepping on_scene = best_->stepping;
   Stepping on_trials = best_->stepping;
   on_scene.time_step = best_->time_step;
   on_trials.time_step = best_->time_step * best_->stretch;
-  best_->error *= searched_.trials.grid_allowance(on_scene, on_trials);
-  if (was_exact_enough && best_->error > searched_.allowed)
+  double factor = searched_.trials.grid_allowance(on_scene, on_trials, early_samples);
+  if (!best_->row->iterates_locally && best_->error * factor > critical_share * searched_.allowed)
   {
-    const double shorter = std::pow(searched_.allowed / best_->error, 1.0 / best_->row->order);
-    best_->time_step *= shorter;
-    best_->stepping.time_step = best_->time_step;
-    best_->cost /= shorter;
-    best_->error = searched_.allowed;
+    factor = searched_.trials.grid_allowance(on_scene, on_trials, Motion::samples);
   }
+  const bool was_found = best_->error <= searched_.allowed;
+  best_ = allowing_for(*best_, factor);
+  for (const Candidate& candidate : found_)
+  {
+    const Candidate other = allowing_for(candidate, factor);
+    best_ = was_found && is_cheaper(other, *best_) ? other : best_;
+  }
+}
+
+/// What was exact enough is made so again by shorter steps.
+Candidate StepSearch::allowing_for(Candidate candidate, double factor) const
+{
+  if (candidate.row->is_adaptive)
+  {
+    return candidate;
+  }
+  const bool was_exact_enough = candidate.error <= searched_.allowed;
+  candidate.error *= factor;
+  if (was_exact_enough && candidate.error > searched_.allowed)
+  {
+    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / candidate.row->order);
+    candidate.time_step *= shorter;
+    candidate.stepping.time_step = candidate.time_step;
+    candidate.cost /= shorter;
+    candidate.error = searched_.allowed;
+  }
+  return candidate;
 }
 
 std::string StepSearch::reason(double tolerance) const

@@ -32,6 +32,7 @@ private:
   bool is_worth_a_trial(const MethodSearch& search) const;
   void choose();
   void allow_for_the_grid();
+  Candidate allowing_for(Candidate candidate, double factor) const;
   std::optional<Candidate> nearest_in_real_time() const;
 
   SearchedScene searched_;

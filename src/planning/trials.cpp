@@ -26,9 +26,8 @@ constexpr double most_of_own = 8.0;
 constexpr double most_of_scout = 1.0;
 constexpr double most_of_scout_by_tolerance = 50.0;
 
-/// How many samples on are enough to compare the errors of a sheet, which has more modes to be wrong about, with those
-/// of the coarser one of a trial; by how much they may differ, and what is taken where to find out takes too long.
-constexpr int early_samples = 1;
+/// By how much the errors of a sheet may differ from those of the coarser one of a trial, and what is taken where to
+/// find out takes too long.
 constexpr double most_allowance = 30.0;
 constexpr double untried_allowance = 3.0;
 
@@ -74,6 +73,7 @@ Trials::Trials(const StartedScene& scene, StepCosts& costs)
   pilot_ = pilot_of(scene, coarsening_of(scene, seconds_a_run));
   const Simulation simulation = simulation_of(pilot_, { scout });
   spectrum_ = spectrum_of(simulation.dynamics(), simulation.state().positions);
+  scout_step_ = Simulation::limit_share * limit(simulation.method());
 }
 
 bool Trials::is_coarser() const
@@ -81,9 +81,14 @@ bool Trials::is_coarser() const
   return nodes_of(pilot_) < nodes_of(scene_);
 }
 
-double Trials::longest_step(const MethodRow& row) const
+double Trials::limit(const MethodRow& row) const
 {
-  return Simulation::limit_share * network_stability_limit(row, spectrum_);
+  return network_stability_limit(row, spectrum_);
+}
+
+double Trials::likely_limit(const MethodRow& row) const
+{
+  return cloth::likely_limit(row, spectrum_);
 }
 
 double Trials::seconds_of_a_run(double time_step, double evaluations_a_step) const
@@ -101,20 +106,20 @@ double Trials::coarseness() const
   return std::max(ratio(fine.rows - 1, coarse.rows - 1), ratio(fine.cols - 1, coarse.cols - 1));
 }
 
-double Trials::grid_allowance(const Stepping& stepping, const Stepping& on_trial)
+double Trials::grid_allowance(const Stepping& stepping, const Stepping& on_trial, int samples)
 {
   if (!is_coarser())
   {
     return 1.0;
   }
-  if (3.0 * Motion::horizon / stepping.time_step * evaluation_ * early_samples / Motion::samples > most_seconds)
+  if (3.0 * Motion::horizon / stepping.time_step * evaluation_ * samples / Motion::samples > most_seconds)
   {
     return untried_allowance;
   }
   const auto error_on = [&](const StartedScene& scene, Stepping steps) {
-    const Motion at_given = run(scene, steps, early_samples);
+    const Motion at_given = run(scene, steps, samples);
     steps.time_step *= 0.5;
-    return distance(at_given, run(scene, steps, early_samples), early_samples);
+    return distance(at_given, run(scene, steps, samples), samples);
   };
   const double ratio = error_on(scene_, stepping) / error_on(pilot_, on_trial);
   return std::isfinite(ratio) ? std::clamp(ratio, 1.0, most_allowance) : most_allowance;
@@ -138,7 +143,7 @@ const Motion& Trials::motion(const Stepping& stepping)
 Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samples)
 {
   const MethodRow& row = *find_method(stepping.method);
-  const double of_scout = Motion::horizon / longest_step(*find_method(scout));
+  const double of_scout = Motion::horizon / scout_step_;
   const double most = row.is_adaptive       ? most_of_scout_by_tolerance * of_scout :
                       row.linear_solves > 0 ? most_of_scout * of_scout :
                                               most_of_own * row.force_evaluations * Motion::horizon / stepping.time_step;

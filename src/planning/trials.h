@@ -29,8 +29,9 @@ public:
   /// How much longer the cells are than the scene's.
   double coarseness() const;
 
-  /// The longest step on the coarser grid that a method may take at any time, s; infinite: any.
-  double longest_step(const MethodRow& row) const;
+  /// The stability limit of a method on the coarser grid, s, and what it is likely to be.
+  double limit(const MethodRow& row) const;
+  double likely_limit(const MethodRow& row) const;
 
   /// Of a run with steps of this length, s of work: those of as many evaluations of the forces.
   double seconds_of_a_run(double time_step, double evaluations_a_step) const;
@@ -48,8 +49,9 @@ public:
     return evaluation_;
   }
 
-  /// By what factor these steps err more on the sheet itself than `on_trial` does on the coarser grid, early on.
-  double grid_allowance(const Stepping& stepping, const Stepping& on_trial);
+  /// By what factor these steps err more on the sheet itself, which has more modes to be wrong about, than `on_trial`
+  /// does on the coarser grid, over the first so many samples.
+  double grid_allowance(const Stepping& stepping, const Stepping& on_trial, int samples);
 
   /// By how much the answer by these steps changes without the parts, m; infinite where they are all that keeps it
   /// together.
@@ -70,7 +72,8 @@ private:
   StartedScene scene_;
   StartedScene pilot_;
   double evaluation_;
-  Spectrum spectrum_;  ///< of the coarser grid
+  Spectrum spectrum_;      ///< of the coarser grid
+  double scout_step_;      ///< the scout's longest there, s
   double seconds_ = 0.0;
   std::map<std::string, Motion> motions_;
 };

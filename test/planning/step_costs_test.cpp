@@ -23,7 +23,7 @@ protected:
 
 TEST_F(StepCostsInAFolder, AreMeasuredOnceAndKept)
 {
-  const std::string file = path("below/costs.yaml");
+  const std::string file = path("below/costs.txt");
   StepCosts first(file);
   const double verlet = first.of_a_step(sheet(8), { "velocity_verlet" });
   const double euler = first.of_a_step(sheet(8), { "implicit_euler", 1e-3 });
@@ -37,8 +37,8 @@ TEST_F(StepCostsInAFolder, AreMeasuredOnceAndKept)
 
 TEST_F(StepCostsInAFolder, OfAFileThatCannotBeReadAreMeasuredAnew)
 {
-  const std::string file = path("costs.yaml");
-  std::ofstream(file) << "velocity_verlet: [unfinished";
+  const std::string file = path("costs.txt");
+  std::ofstream(file) << "velocity_verlet 8 x 8: unfinished\nnothing";
   StepCosts costs(file);
   EXPECT_GT(costs.of_a_step(sheet(8), { "velocity_verlet" }), 0.0);
   EXPECT_EQ(StepCosts(file).of_a_step(sheet(8), { "velocity_verlet" }),
@@ -48,7 +48,7 @@ TEST_F(StepCostsInAFolder, OfAFileThatCannotBeReadAreMeasuredAnew)
 TEST_F(StepCostsInAFolder, AreMeasuredAlsoWhereNothingCanBeKept)
 {
   std::ofstream(path("file")) << "no folder";
-  StepCosts costs(path("file") + "/costs.yaml");
+  StepCosts costs(path("file") + "/costs.txt");
   EXPECT_GT(costs.of_a_step(sheet(8), { "velocity_verlet" }), 0.0);
 }
 

@@ -44,4 +44,8 @@ double stiffness_bound(const Dynamics& dynamics, const Vectors& positions);
 /// The largest step that is stable for every mode that a network of this spectrum can have, s.
 double network_stability_limit(const MethodRow& method, const Spectrum& spectrum);
 
+/// The largest step that is stable for the fastest modes alone, s: never smaller than that, most often the same, and
+/// found in a hundredth of the time.
+double likely_limit(const MethodRow& method, const Spectrum& spectrum);
+
 }  // namespace cloth
