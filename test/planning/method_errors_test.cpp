@@ -42,7 +42,7 @@ protected:
 
   StepCosts costs_{ "" };
   Trials trials_{ damped_sheet(), costs_ };
-  double first_ = 0.4 * trials_.longest_step(*find_method("velocity_verlet"));
+  double first_ = 0.36 * trials_.limit(*find_method("velocity_verlet"));
 };
 
 TEST_P(MethodErrorsTest, FollowFromHowTheRunsDiffer)
@@ -105,7 +105,7 @@ TEST(MethodErrors, SayWhereTheMotionPartsFromItself)
       "end, nodes: [[0, 0]]}]}");
   StepCosts costs("");
   Trials trials({ params, scene_start(params, make_sheet(params.sheet)) }, costs);
-  MethodErrors errors(trials, 2, { "velocity_verlet", trials.longest_step(*find_method("velocity_verlet")) }, {});
+  MethodErrors errors(trials, 2, { "velocity_verlet", 0.9 * trials.limit(*find_method("velocity_verlet")) }, {});
   for (int run = 0; run < 4; ++run)
   {
     errors.run_next();

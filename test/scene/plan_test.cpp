@@ -84,8 +84,9 @@ TEST(Plan, DoesNotRunWhatItLeavesOut)
 TEST(Plan, HasALineForEveryPartOnceAndInOrder)
 {
   const std::vector<std::string> parts{
-    "structural springs", "shear springs", "flex springs", "internal damping", "gravity", "viscous damping", "wind",
-    "strain limit",       "pins",          "start",        "method",           "sleep",   "threads",         "time step"
+    "structural springs", "shear springs", "flex springs", "internal damping", "gravity",
+    "viscous damping",    "wind",          "strain limit", "pins",             "start",
+    "method",             "error watch",   "sleep",        "threads",          "time step"
   };
   const std::vector<std::string> lines = lines_of(four_by_five);
   ASSERT_EQ(lines.size(), parts.size());
@@ -105,6 +106,44 @@ TEST(Plan, SaysWhereTheSheetStartsAndHoldsIt)
   const Plan plan = make_plan(scene_of("{" + drawn + "settled}}"));
   EXPECT_EQ(build_simulation(plan).state().positions, plan.start.positions);
   EXPECT_THROW(make_plan(scene_of("{cloth: {start: catenary}}")), SceneError);
+}
+
+TEST(Plan, SaysWhetherStepsAreCheckedWhileTheyRun)
+{
+  const SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6}, solver: {tolerance: 2.0e-3}}");
+  const auto line_with = [&](const std::string& method, double error, double cost) {
+    Choice choice;
+    choice.method = method;
+    choice.error = error;
+    choice.cost = cost;
+    const Plan plan = make_plan(scene, choice);
+    return *std::find_if(plan.lines.begin(), plan.lines.end(),
+                         [](const PlanLine& line) { return line.part == "error watch"; });
+  };
+  const PlanLine watched = line_with("velocity_verlet", 1e-3, 0.1);
+  EXPECT_TRUE(watched.kept);
+  EXPECT_TRUE(has(watched.reason, { "by half steps", "more than 0.002 m" })) << watched.reason;
+  EXPECT_TRUE(has(line_with("velocity_verlet", 5e-3, 0.1).reason, { "more than 0.01 m" }));
+  EXPECT_FALSE(line_with("velocity_verlet", 1e-3, 0.4).kept);
+  EXPECT_TRUE(has(line_with("velocity_verlet", 1e-3, 0.4).reason, { "0.4 s of work a second leave no time" }));
+  EXPECT_TRUE(has(line_with("dopri5", 1e-3, 0.1).reason, { "dopri5 watches each of its steps" }));
+  EXPECT_EQ(line_of("error watch", "solver: {method: rk4}"), "error watch: left out, solver.method is rk4, not auto");
+}
+
+TEST(Plan, SaysWhatTheLastCheckFound)
+{
+  const SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6, ripple: 0.01}, plan: full}");
+  Choice choice;
+  choice.method = "velocity_verlet";
+  choice.error = 1e-4;
+  choice.cost = 1e-3;
+  const Plan plan = make_plan(scene, choice);
+  Simulation simulation = build_simulation(plan);
+  ASSERT_TRUE(simulation.advance_to(ErrorWatch::first_check + ErrorWatch::horizon + 0.1));
+  const std::vector<std::string> lines = describe(plan, simulation);
+  const auto line = std::find_if(lines.begin(), lines.end(),
+                                 [](const std::string& text) { return text.find("error watch: ") == 0; });
+  EXPECT_TRUE(has(*line, { "in the second before 5", " s erred by " })) << *line;
 }
 
 TEST(Plan, OfAutoSaysHowExactAndHowDearItIs)
