@@ -244,7 +244,8 @@ double network_stability_limit(const MethodRow& method, const Spectrum& spectrum
 double likely_limit(const MethodRow& method, const Spectrum& spectrum)
 {
   double limit = std::numeric_limits<double>::infinity();
-  const double most = std::min(spectrum.most_spring_damping, spectrum.damping_ratio * spectrum.frequency * spectrum.frequency);
+  const double most =
+      std::min(spectrum.most_spring_damping, spectrum.damping_ratio * spectrum.frequency * spectrum.frequency);
   for (const double spring : { 0.0, most })
   {
     limit = std::min(limit, method.stability_limit({ spectrum.frequency, spectrum.most_air_damping, spring }));

@@ -70,8 +70,7 @@ Difference difference_from_twice_as_fine(const StartedScene& coarse, const Stepp
 std::string in_words(const Difference& difference)
 {
   return in_two_digits(difference.of_motion) + " m in motion and " +
-         (std::isnan(difference.of_rest) ? "no rest to compare" :
-                                           in_two_digits(difference.of_rest) + " m at rest");
+         (std::isnan(difference.of_rest) ? "no rest to compare" : in_two_digits(difference.of_rest) + " m at rest");
 }
 
 }  // namespace

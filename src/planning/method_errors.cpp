@@ -56,7 +56,8 @@ bool MethodErrors::is_known() const
 bool MethodErrors::falls() const
 {
   const size_t count = differences_.size();
-  return count >= 2 && differences_[count - 2] > std::exp2(order_of_falling * order_) * differences_[count - 1];
+  return count >= 2 && std::isfinite(differences_[count - 2]) &&
+         differences_[count - 2] > std::exp2(order_of_falling * order_) * differences_[count - 1];
 }
 
 bool MethodErrors::is_at_its_floor() const
@@ -123,7 +124,7 @@ double MethodErrors::error_at(size_t run) const
   }
   const size_t last = differences_.size() - 1;
   const size_t first_of_two = run <= last || last == 0 ? run : last - 1;
-  const bool are_two = first_of_two < last;
+  const bool are_two = first_of_two < last && std::isfinite(differences_[first_of_two]);
   const double gain = are_two ? differences_[first_of_two] / differences_[first_of_two + 1] : 0.0;
   const bool falls = gain > std::exp2(order_of_falling * order_);
   if (run <= last)

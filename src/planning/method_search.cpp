@@ -51,6 +51,11 @@ public:
     return cost_of(std::min(longest_, errors_->finest_step() / stretch() * std::min(1.0, falls_best)));
   }
 
+  double next_cost() const override
+  {
+    return cost_of(errors_ ? std::min(longest_, 0.5 * errors_->finest_step() / stretch()) : longest_);
+  }
+
   double trial_cost() const override
   {
     return searched_.trials.seconds_of_a_run(errors_ ? 0.5 * errors_->finest_step() : longest_on_trials_,
@@ -102,11 +107,14 @@ public:
 
   MethodErrors::Reference reference() const override
   {
-    return errors_ && errors_->is_known() ?
-               MethodErrors::Reference{ &errors_->finest(), errors_->error_of_finest() } :
-               MethodErrors::Reference{};
+    return errors_ && errors_->is_known() ? MethodErrors::Reference{ &errors_->finest(), errors_->error_of_finest() } :
+                                            MethodErrors::Reference{};
   }
 
+  bool knows_its_floor() const override
+  {
+    return runs_ > 2;
+  }
   bool is_at_its_floor() const override
   {
     return errors_ && errors_->is_at_its_floor();
@@ -177,7 +185,7 @@ private:
     const double cost = is_measured ? searched_.costs.of_a_step(searched_.scene, stepping_of(time_step)) / time_step :
                                       cost_of(time_step);
     const double of_trials = std::min(longest_on_trials_, as_limited ? longest_on_trials_ : time_step * stretch());
-    return { &row_, stepping, time_step, errors_->error_of(time_step * stretch()), cost, stepping_of(of_trials),
+    return { &row_,    stepping, time_step, errors_->error_of(time_step * stretch()), cost, stepping_of(of_trials),
              stretch() };
   }
 
@@ -215,6 +223,11 @@ public:
   double least_cost() const override
   {
     return tried_.empty() ? row_.force_evaluations * searched_.trials.evaluation() / longest_ : cost_of_last();
+  }
+
+  double next_cost() const override
+  {
+    return least_cost();
   }
 
   double trial_cost() const override

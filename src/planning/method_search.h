@@ -52,6 +52,9 @@ public:
   /// Of the next trial, s of work.
   virtual double trial_cost() const = 0;
 
+  /// Of the step that the next trial is about, s of work for a simulated second.
+  virtual double next_cost() const = 0;
+
   virtual void try_next(const MethodErrors::Reference& reference) = 0;
 
   /// The cheapest steps that are exact enough.
@@ -63,7 +66,12 @@ public:
   /// Its most exact run so far.
   virtual MethodErrors::Reference reference() const = 0;
 
-  /// Halving the steps does not help: the motion parts from itself.
+  /// Whether it is known how errors fall when steps are halved, and whether they do: where not, the motion parts from
+  /// itself.
+  virtual bool knows_its_floor() const
+  {
+    return false;
+  }
   virtual bool is_at_its_floor() const
   {
     return false;

@@ -73,12 +73,8 @@ Planned plan_by_trial(const StartedScene& scene, StepCosts& costs)
   }
   const Stepping& stepping = search.best()->stepping;
   const double method_tolerance = search.best()->row->is_adaptive ? stepping.tolerance : tolerance;
-  result.choice = { left_out.parts,
-                    stepping.method,
-                    stepping.time_step,
-                    method_tolerance,
-                    stepping.iterations,
-                    std::hypot(search.best()->error, left_out.change),
+  result.choice = { left_out.parts,     stepping.method,     stepping.time_step,
+                    method_tolerance,   stepping.iterations, std::hypot(search.best()->error, left_out.change),
                     search.best()->cost };
   result.reason = search.reason(tolerance);
   return result;

@@ -19,6 +19,8 @@ constexpr double real_time_share = 0.5;
 constexpr double expected_run = 10.0;
 /// What trials may take while nothing is found, in parts of such a run by the scout.
 constexpr double most_trials = 0.2;
+/// And then by the scout alone, s.
+constexpr double most_seconds = 3.0;
 
 /// How many samples are enough to compare a sheet's errors with those of a coarser one, unless they are larger than
 /// this part of what they may be.
@@ -65,17 +67,8 @@ StepSearch::StepSearch(const StartedScene& scene, Trials& trials, double allowed
 
 void StepSearch::run()
 {
-  const double most_seconds =
-      scout_ != nullptr ? most_trials * expected_run * scout_->least_cost() : std::numeric_limits<double>::infinity();
-  for (MethodSearch* search = most_promising(); search != nullptr; search = most_promising())
+  while (MethodSearch* const search = next_search())
   {
-    const bool is_scout_known = scout_ == nullptr || scout_->reference().motion != nullptr;
-    const bool take_too_long = is_scout_known && searched_.trials.seconds() > most_seconds;
-    const bool parts_from_itself = scout_ != nullptr && scout_->is_at_its_floor();
-    if (found_.empty() && (take_too_long || parts_from_itself))
-    {
-      break;
-    }
     search->try_next(scout_ != nullptr && search != scout_ ? scout_->reference() : MethodErrors::Reference{});
     if (const std::optional<Candidate> candidate = search->found())
     {
@@ -84,6 +77,31 @@ void StepSearch::run()
     }
   }
   choose();
+}
+
+/// None: nothing more can come of any, or what may come is not worth the trials.
+MethodSearch* StepSearch::next_search() const
+{
+  if (!found_.empty() || scout_ == nullptr || scout_->reference().motion == nullptr)
+  {
+    return most_promising();
+  }
+  if (scout_->is_at_its_floor())
+  {
+    return nullptr;
+  }
+  if (!scout_->knows_its_floor() && !scout_->is_over())
+  {
+    return scout_;
+  }
+  if (searched_.trials.seconds() < most_trials * expected_run * scout_->least_cost())
+  {
+    return most_promising();
+  }
+  // It goes on alone as far as real time allows, to say what can be had.
+  const bool goes_on = !scout_->is_over() && scout_->next_cost() <= real_time_share &&
+                       searched_.trials.seconds() + scout_->trial_cost() < most_seconds;
+  return goes_on ? scout_ : nullptr;
 }
 
 /// The one that may lead to the cheapest steps. Explicit methods that promise more than the scout are held against it,
@@ -119,19 +137,26 @@ bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
 
 void StepSearch::choose()
 {
-  if (!found_.empty() && found_.front().cost <= real_time_share)
+  const bool is_found = !found_.empty();
+  const bool is_affordable = is_found && found_.front().cost <= real_time_share;
+  dearer_ = is_found && !is_affordable ? in_words(found_.front()) : "";
+  if (is_affordable)
   {
     best_ = found_.front();
   }
-  else if (const std::optional<Candidate> nearest = nearest_in_real_time())
+  else if (scout_ != nullptr && scout_->is_at_its_floor())
   {
-    best_ = nearest;
+    best_ = scout_->nearest(real_time_share);
   }
-  else
+  if (!best_)
   {
-    best_ = found_.empty() && scout_ != nullptr ? scout_->nearest(std::numeric_limits<double>::infinity()) :
-            found_.empty()                      ? std::nullopt :
-                                                  std::optional<Candidate>(found_.front());
+    best_ = nearest_in_real_time();
+  }
+  if (!best_)
+  {
+    best_ = is_found          ? std::optional<Candidate>(found_.front()) :
+            scout_ != nullptr ? scout_->nearest(std::numeric_limits<double>::infinity()) :
+                                std::nullopt;
   }
   if (best_ && !best_->row->is_adaptive)
   {
@@ -161,24 +186,34 @@ std::optional<Candidate> StepSearch::nearest_in_real_time() const
   return nearest == candidates.end() ? std::nullopt : std::optional<Candidate>(*nearest);
 }
 
-/// A sheet has more modes to be wrong about than the coarser one of the trials. What is the cheapest may be another then.
+/// A sheet has more modes to be wrong about than the coarser one of the trials. What is the cheapest may be another
+/// then.
 void StepSearch::allow_for_the_grid()
 {
   Stepping on_scene = best_->stepping;
   Stepping on_trials = best_->stepping;
   on_scene.time_step = best_->time_step;
   on_trials.time_step = best_->time_step * best_->stretch;
+  const bool was_found = best_->error <= searched_.allowed;
   double factor = searched_.trials.grid_allowance(on_scene, on_trials, early_samples);
-  if (!best_->row->iterates_locally && best_->error * factor > critical_share * searched_.allowed)
+  if (was_found && !best_->row->iterates_locally && best_->error * factor > critical_share * searched_.allowed)
   {
     factor = searched_.trials.grid_allowance(on_scene, on_trials, Motion::samples);
   }
-  const bool was_found = best_->error <= searched_.allowed;
   best_ = allowing_for(*best_, factor);
   for (const Candidate& candidate : found_)
   {
     const Candidate other = allowing_for(candidate, factor);
     best_ = was_found && is_cheaper(other, *best_) ? other : best_;
+  }
+  if (was_found && best_->cost > real_time_share && best_->stepping.time_step > 0.0)
+  {
+    dearer_ = in_words(*best_);
+    const double longer = std::min(best_->cost / real_time_share, on_scene.time_step / best_->time_step);
+    best_->time_step *= longer;
+    best_->stepping.time_step = best_->time_step;
+    best_->cost /= longer;
+    best_->error *= std::pow(longer, best_->row->order);
   }
 }
 
@@ -212,7 +247,7 @@ std::string StepSearch::reason(double tolerance) const
     {
       return words + ", since the motion parts from itself: shorter steps bring it nearer to nothing";
     }
-    return words + (found_.empty() ? "" : " in real time: " + in_words(found_.front()));
+    return words + (dearer_.empty() ? "" : " in real time: " + dearer_);
   }
   words += best_->cost > 1.0 ? ", slower than real time" : "";
   const bool is_next = found_.size() > 1 && found_.front().row == best_->row;

@@ -28,6 +28,7 @@ public:
   std::string reason(double tolerance) const;
 
 private:
+  MethodSearch* next_search() const;
   MethodSearch* most_promising() const;
   bool is_worth_a_trial(const MethodSearch& search) const;
   void choose();
@@ -40,6 +41,7 @@ private:
   MethodSearch* scout_ = nullptr;
   std::vector<Candidate> found_;  ///< the cheapest first
   std::optional<Candidate> best_;
+  std::string dearer_;  ///< in words what would be exact enough, and takes too long
 };
 
 /// As many digits as an estimate is good for.

@@ -72,8 +72,8 @@ private:
   StartedScene scene_;
   StartedScene pilot_;
   double evaluation_;
-  Spectrum spectrum_;      ///< of the coarser grid
-  double scout_step_;      ///< the scout's longest there, s
+  Spectrum spectrum_;  ///< of the coarser grid
+  double scout_step_;  ///< the scout's longest there, s
   double seconds_ = 0.0;
   std::map<std::string, Motion> motions_;
 };

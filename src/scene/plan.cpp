@@ -212,9 +212,9 @@ std::string reason_for_no_checks(const SceneParams& scene, const Choice& choice)
   }
   if (!(choice.cost <= most_cost_to_check))
   {
-    return std::isnan(choice.cost) ? "nothing was tried" :
-                                     "steps of " + in_two_digits(choice.cost) +
-                                         " s of work a second leave no time to run any of them again";
+    return std::isnan(choice.cost) ?
+               "nothing was tried" :
+               "steps of " + in_two_digits(choice.cost) + " s of work a second leave no time to run any of them again";
   }
   return {};
 }
@@ -483,6 +483,10 @@ std::string described_step(const Plan& plan, const Simulation& simulation, doubl
   if (corrected && *corrected == simulation.time_step())
   {
     return step + "as a check of the error has corrected it; the stability limit of " + name + " is " + limit;
+  }
+  if (given > 0.0 && plan.keeps_within_limit && !std::isfinite(stability_limit))
+  {
+    return step + "as chosen; " + name + " is stable at any";
   }
   if (given > 0.0 && plan.keeps_within_limit)
   {

@@ -10,8 +10,8 @@ namespace cloth
 namespace
 {
 
-constexpr double aim = 0.5;         ///< of the tolerance
-constexpr double far_below = 0.125; ///< of the tolerance
+constexpr double aim = 0.5;          ///< of the tolerance
+constexpr double far_below = 0.125;  ///< of the tolerance
 constexpr double most_shortening = 0.25;
 constexpr double most_lengthening = 2.0;
 /// Where errors fall with a lower power of the step than this part of the order, they are not the step's.
@@ -59,8 +59,7 @@ void ErrorWatch::take_look(const Dynamics& dynamics, const StrainLimit& limit, d
 
 void ErrorWatch::begin_check(const Dynamics& dynamics, const StrainLimit& limit, const ClothState& state)
 {
-  other_.emplace(
-      Other{ state, row_->make(settings_), StrainLimit(dynamics.model(), limit.properties()) });
+  other_.emplace(Other{ state, row_->make(settings_), StrainLimit(dynamics.model(), limit.properties()) });
   other_->limit.go_on_from(limit);
   begin_ = state.time;
   compared_ = 0;
@@ -76,8 +75,8 @@ void ErrorWatch::end_check(double time, double h)
   first_step_ = first_step_ > 0.0 ? first_step_ : h;
   const bool is_too_large = error > bounds_.tolerance;
   const bool was_in_vain =
-      before_shortening_ && error > before_shortening_->error *
-                                        std::pow(h / before_shortening_->step, least_of_order * row_->order);
+      before_shortening_ &&
+      error > before_shortening_->error * std::pow(h / before_shortening_->step, least_of_order * row_->order);
   checks_far_below_ = error < far_below * bounds_.tolerance ? checks_far_below_ + 1 : 0;
   double next = h;
   if (is_too_large && was_in_vain)

@@ -97,11 +97,34 @@ TEST_P(MethodErrorsTest, GiveTheStepForAnError)
 INSTANTIATE_TEST_SUITE_P(Methods, MethodErrorsTest, testing::Values("symplectic_euler", "velocity_verlet", "xpbd"),
                          [](const testing::TestParamInfo<const char*>& info) { return std::string(info.param); });
 
+TEST(MethodErrors, FollowFromNoRunThatWasCutOff)
+{
+  const SceneParams params = scene_of(
+      "{cloth: {rows: 12, cols: 12, ripple: 0.01}, springs: {structural: {stiffness: 3000, damping: 0}, shear: "
+      "{stiffness: "
+      "3000, damping: 0}}, strain_limit: {max_strain: 0.001, sweeps: 1000}}");
+  StepCosts costs("");
+  Trials trials({ params, scene_start(params, make_sheet(params.sheet)) }, costs);
+  Stepping stepping{ "xpbd", 0.02 };
+  stepping.iterations = 1;
+  MethodErrors errors(trials, 1, stepping, {});
+  errors.run_next();
+  EXPECT_LT(errors.finest().positions.size(), static_cast<size_t>(Motion::samples));
+  for (int run = 0; run < 12 && (!errors.is_known() || std::isinf(errors.error_of_finest())); ++run)
+  {
+    errors.run_next();
+  }
+  EXPECT_TRUE(std::isfinite(errors.error_of_finest()));
+  EXPECT_GT(errors.error_of_finest(), 0.0);
+  EXPECT_FALSE(errors.falls());
+}
+
 TEST(MethodErrors, SayWhereTheMotionPartsFromItself)
 {
   const SceneParams params = scene_of(
       "{cloth: {rows: 1, cols: 20, width: 0.3}, springs: {structural: {stiffness: 1000, damping: 0}, flex: {stiffness: "
-      "0}}, gravity: [0, 0, -200], air: {viscous_damping: 0, wind_coupling: 0}, strain_limit: {max_strain: 0}, pins: [{name: "
+      "0}}, gravity: [0, 0, -200], air: {viscous_damping: 0, wind_coupling: 0}, strain_limit: {max_strain: 0}, pins: "
+      "[{name: "
       "end, nodes: [[0, 0]]}]}");
   StepCosts costs("");
   Trials trials({ params, scene_start(params, make_sheet(params.sheet)) }, costs);

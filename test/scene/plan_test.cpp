@@ -83,11 +83,21 @@ TEST(Plan, DoesNotRunWhatItLeavesOut)
 
 TEST(Plan, HasALineForEveryPartOnceAndInOrder)
 {
-  const std::vector<std::string> parts{
-    "structural springs", "shear springs", "flex springs", "internal damping", "gravity",
-    "viscous damping",    "wind",          "strain limit", "pins",             "start",
-    "method",             "error watch",   "sleep",        "threads",          "time step"
-  };
+  const std::vector<std::string> parts{ "structural springs",
+                                        "shear springs",
+                                        "flex springs",
+                                        "internal damping",
+                                        "gravity",
+                                        "viscous damping",
+                                        "wind",
+                                        "strain limit",
+                                        "pins",
+                                        "start",
+                                        "method",
+                                        "error watch",
+                                        "sleep",
+                                        "threads",
+                                        "time step" };
   const std::vector<std::string> lines = lines_of(four_by_five);
   ASSERT_EQ(lines.size(), parts.size());
   for (size_t i = 0; i < parts.size(); ++i)
@@ -141,8 +151,8 @@ TEST(Plan, SaysWhatTheLastCheckFound)
   Simulation simulation = build_simulation(plan);
   ASSERT_TRUE(simulation.advance_to(ErrorWatch::first_check + ErrorWatch::horizon + 0.1));
   const std::vector<std::string> lines = describe(plan, simulation);
-  const auto line = std::find_if(lines.begin(), lines.end(),
-                                 [](const std::string& text) { return text.find("error watch: ") == 0; });
+  const auto line =
+      std::find_if(lines.begin(), lines.end(), [](const std::string& text) { return text.find("error watch: ") == 0; });
   EXPECT_TRUE(has(*line, { "in the second before 5", " s erred by " })) << *line;
 }
 

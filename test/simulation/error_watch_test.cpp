@@ -71,8 +71,8 @@ double true_error(SimulationSetup setup)
     const double time = check_begin + ErrorWatch::horizon * s / ErrorWatch::samples;
     run(coarse, time);
     run(fine, time);
-    squares += (coarse.state().positions - fine.state().positions).squaredNorm() /
-               static_cast<double>(coarse.model().nodes());
+    squares +=
+        (coarse.state().positions - fine.state().positions).squaredNorm() / static_cast<double>(coarse.model().nodes());
   }
   return std::sqrt(squares / ErrorWatch::samples);
 }
@@ -149,11 +149,11 @@ TEST(ErrorWatch, LengthensStepsThatAreFarBelowTwice)
 /// A whip that turns over: there is no step that follows it.
 TEST(ErrorWatch, ComesBackToTheStepBeforeWhereTheMotionPartsFromItself)
 {
-  SimulationSetup setup =
-      setup_of("{cloth: {rows: 1, cols: 20, width: 0.3}, springs: {structural: {stiffness: 1000, damping: 0}, flex: "
-               "{stiffness: 0}}, gravity: [0, 0, -200], air: {viscous_damping: 0, wind_coupling: 0}, strain_limit: "
-               "{max_strain: 0}, pins: [{name: end, nodes: [[0, 0]]}]}",
-               "velocity_verlet", tick / 128.0);
+  SimulationSetup setup = setup_of(
+      "{cloth: {rows: 1, cols: 20, width: 0.3}, springs: {structural: {stiffness: 1000, damping: 0}, flex: "
+      "{stiffness: 0}}, gravity: [0, 0, -200], air: {viscous_damping: 0, wind_coupling: 0}, strain_limit: "
+      "{max_strain: 0}, pins: [{name: end, nodes: [[0, 0]]}]}",
+      "velocity_verlet", tick / 128.0);
   setup.error_bounds = { 1e-5, 0.0, 1.0 };
   Simulation simulation(setup);
   run(simulation, check_end + tick);

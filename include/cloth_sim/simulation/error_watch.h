@@ -14,9 +14,9 @@ namespace cloth
 /// What steps may err by, and how far they may be corrected for that.
 struct ErrorBounds
 {
-  double tolerance = 0.0;      ///< m; root mean square over all nodes and 1 s; 0: nobody asks
-  double room = 1.0;           ///< steps of this part of the first ones' length take too long
-  double longest_step = 0.0;   ///< s
+  double tolerance = 0.0;     ///< m; root mean square over all nodes and 1 s; 0: nobody asks
+  double room = 1.0;          ///< steps of this part of the first ones' length take too long
+  double longest_step = 0.0;  ///< s
 };
 
 /// Finds out by step doubling what the steps of a running cloth err by, and which would err by half of the tolerance.
@@ -99,8 +99,8 @@ private:
   double begin_ = 0.0;  ///< of the check, s
   int compared_ = 0;    ///< samples
   double squares_ = 0.0;
-  double next_check_;                ///< s
-  double between_ = least_between;   ///< s
+  double next_check_;               ///< s
+  double between_ = least_between;  ///< s
   int checks_far_below_ = 0;
   double first_step_ = 0.0;  ///< s
   std::optional<Finding> before_shortening_;

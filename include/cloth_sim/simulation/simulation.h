@@ -36,7 +36,7 @@ struct SimulationSetup
   double time_step = 0.0;  ///< s; 0: 0.9 of the stability limit as it is, or 1/240 where there is none; of an adaptive
                            ///< method the largest step, 0: none
   bool keeps_within_limit = false;  ///< a given step is shortened to 0.9 of the stability limit where it is longer
-  int threads = 1;         ///< the most that share a step; 0: those of the machine, `chosen_threads` at most
+  int threads = 1;                  ///< the most that share a step; 0: those of the machine, `chosen_threads` at most
   ClothState start;
   bool start_is_settled = false;  ///< `settle` found it, and nothing was changed since
   double sleep_distance = 0.0;    ///< m; it sleeps where going on would move no node farther; 0: never

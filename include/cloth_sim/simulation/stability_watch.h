@@ -31,10 +31,10 @@ private:
   bool known_ = false;
   bool is_of_bound_ = false;
   double limit_ = 0.0;
-  double bound_ = 0.0;              ///< 1/s2, of when the limit was worked out
-  double time_ = 0.0;               ///< s, likewise
-  std::uint64_t worked_out_at_ = 0; ///< steps, likewise
-  std::uint64_t looked_at_ = 0;     ///< steps
+  double bound_ = 0.0;               ///< 1/s2, of when the limit was worked out
+  double time_ = 0.0;                ///< s, likewise
+  std::uint64_t worked_out_at_ = 0;  ///< steps, likewise
+  std::uint64_t looked_at_ = 0;      ///< steps
 };
 
 }  // namespace cloth
