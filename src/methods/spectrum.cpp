@@ -16,6 +16,7 @@ namespace
 {
 
 constexpr int most_lanczos_steps = 32;
+constexpr int steps_between_ritz_values = 4;
 constexpr double lanczos_residual = 0.005;  ///< small enough, in parts of the eigenvalue
 constexpr double margin = 1.01;
 
@@ -75,10 +76,14 @@ double lanczos_estimate(const Dynamics& dynamics, const Vectors& positions)
     product -= diagonal.back() * q + beta * previous;
     beta = product.norm();
     beside.push_back(beta);
-    ritz = largest_ritz_value(diagonal, beside);
-    if (ritz.residual <= lanczos_residual * ritz.value)
+    const bool is_last = step + 1 == most_lanczos_steps || beta == 0.0;
+    if (is_last || (step + 1) % steps_between_ritz_values == 0)
     {
-      break;
+      ritz = largest_ritz_value(diagonal, beside);
+      if (is_last || ritz.residual <= lanczos_residual * ritz.value)
+      {
+        break;
+      }
     }
     previous.swap(q);
     q = product / beta;

@@ -20,7 +20,7 @@ constexpr double evaluations_of_a_solve = 300.0;
 /// What a pass takes that handles springs one after the other, likewise.
 constexpr double evaluations_of_an_iteration = 3.0;
 /// By how much errors of long steps that damp what they should not fall faster than the order says.
-constexpr double order_of_lost_damping = 0.5;
+constexpr double order_of_lost_damping = 1.5;
 /// A reference errs by no more than this part of what may be erred by.
 constexpr double reference_share = 0.25;
 

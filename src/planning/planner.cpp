@@ -67,7 +67,7 @@ Planned plan_by_trial(const StartedScene& scene, StepCosts& costs)
   }
   Planned result;
   LeftOut left_out;
-  if (scene.params.plan == "auto" && trials.is_coarser())
+  if (scene.params.plan == "auto")
   {
     left_out = parts_to_leave_out(trials, search.best()->on_trials, trial_share * tolerance, result.tried);
   }

@@ -20,14 +20,15 @@ constexpr double most_seconds = 3.0;
 constexpr double expected_trials = 12.0;
 
 /// A run that takes this many times what steps of its length take leads to nothing; neither does one that solves
-/// equations where it takes longer than the scout's longest steps, or one that chooses its steps where it takes much
+/// equations where it takes longer than a part of the scout's, or one that chooses its steps where it takes much
 /// longer.
 constexpr double most_of_own = 40.0;
-constexpr double most_of_scout = 1.0;
+constexpr double most_of_scout = 0.25;
 constexpr double most_of_scout_by_tolerance = 50.0;
 
 /// By how much the errors of a sheet may differ from those of the coarser one of a trial, and what is taken where to
 /// find out takes too long.
+constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_allowance = 30.0;
 constexpr double untried_allowance = 3.0;
 
@@ -129,7 +130,8 @@ double Trials::grid_allowance(const Stepping& stepping, const Stepping& on_trial
     return distance(at_given, run(scene, steps, samples), samples);
   };
   const double ratio = error_on(scene_, stepping) / error_on(pilot_, on_trial);
-  return std::isfinite(ratio) ? std::clamp(ratio, 1.0, most_allowance) : most_allowance;
+  const double least = find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
+  return std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance;
 }
 
 double Trials::change_without(const std::vector<std::string>& parts, const Stepping& stepping)

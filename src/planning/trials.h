@@ -23,9 +23,6 @@ public:
   /// Throws SceneError where the scene cannot be stepped.
   Trials(const StartedScene& scene, StepCosts& costs);
 
-  /// Whether they are on a coarser grid than the scene's. On its own, what parts save is not worth the trials.
-  bool is_coarser() const;
-
   /// How much longer the cells are than the scene's.
   double coarseness() const;
 
@@ -67,6 +64,7 @@ public:
   }
 
 private:
+  bool is_coarser() const;
   Motion run(const StartedScene& scene, const Stepping& stepping, int samples = Motion::samples);
 
   StartedScene scene_;
