@@ -504,8 +504,9 @@ std::string described_step(const Plan& plan, const Simulation& simulation, doubl
   }
   if (std::isfinite(stability_limit))
   {
-    return step + format_number(Simulation::limit_share) + " of the stability limit of " + name + ", " + limit +
-           ", and with it as the sheet deforms";
+    const bool is_of_a_bound = simulation.time_step() < (Simulation::limit_share - 0.02) * stability_limit;
+    return step + (is_of_a_bound ? "from a bound within " : "") + format_number(Simulation::limit_share) +
+           " of the stability limit of " + name + ", " + limit + ", and with it as the sheet deforms";
   }
   return step + "1/240 s, since nothing here limits the step of " + name;
 }

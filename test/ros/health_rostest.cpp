@@ -71,7 +71,8 @@ TEST_F(HealthTest, AGoodClothIsReportedWithItsFigures)
   const DiagnosticStatus* const cloth = find(diagnostics_.last(), "cloth");
   EXPECT_EQ(value_in(*cloth, "strain limit"), "0.2");
   EXPECT_EQ(value_in(*cloth, "method"), "velocity_verlet");
-  EXPECT_NEAR(std::stod(value_in(*cloth, "stability margin")), 1.0 / 0.9, 0.05);
+  EXPECT_GT(std::stod(value_in(*cloth, "stability margin")), 1.0 / 0.9 - 0.05);
+  EXPECT_LT(std::stod(value_in(*cloth, "stability margin")), 1.5) << "steps follow from a bound now and then";
   ASSERT_NE(find(diagnostics_.last(), "ticks"), nullptr);
   EXPECT_EQ(value_in(*find(diagnostics_.last(), "ticks"), "rate asked for (Hz)"), "50");
   ASSERT_NE(find(diagnostics_.last(), "transforms"), nullptr);

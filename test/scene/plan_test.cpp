@@ -140,6 +140,16 @@ TEST(Plan, SaysWhetherStepsAreCheckedWhileTheyRun)
   EXPECT_EQ(line_of("error watch", "solver: {method: rk4}"), "error watch: left out, solver.method is rk4, not auto");
 }
 
+TEST(Plan, SaysWhereTheStepFollowsFromABound)
+{
+  const Plan plan = make_plan(scene_of("{cloth: {rows: 8, cols: 8, ripple: 0.01}, solver: {method: velocity_verlet}}"));
+  Simulation simulation = build_simulation(plan);
+  EXPECT_TRUE(has(describe(plan, simulation).back(), { " s, 0.9 of the stability limit of velocity_verlet" }));
+  ASSERT_TRUE(simulation.advance_to(1.0));
+  const std::string line = describe(plan, simulation).back();
+  EXPECT_TRUE(has(line, { " s, from a bound within 0.9 of the stability limit of velocity_verlet" })) << line;
+}
+
 TEST(Plan, SaysWhatTheLastCheckFound)
 {
   const SceneParams scene = scene_of("{cloth: {rows: 6, cols: 6, ripple: 0.01}, plan: full}");
