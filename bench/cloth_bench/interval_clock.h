@@ -11,9 +11,10 @@
 namespace cloth
 {
 
-/// Times a run interval by interval, in the processor's time and with the yardstick beside every interval, so that other
-/// programs and a machine that is slower for a while decide neither what it costs nor which runs there are. The first
-/// interval counts for nothing but the time left: what a solver makes once, it makes there, and it fills the caches.
+/// Times a run interval by interval, in the processor's time and with the yardstick beside every interval, so that
+/// other programs and a machine that is slower for a while decide neither what it costs nor which runs there are. The
+/// first interval counts for nothing but the time left: what a solver makes once, it makes there, and it fills the
+/// caches.
 class IntervalClock
 {
 public:

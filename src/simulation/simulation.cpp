@@ -105,8 +105,8 @@ void Simulation::step(double h)
   const double begin = state_.time;
   const PartCalls calls_before = part_calls();
   method_->record_impulses(measures_reactions_ ? &impulses_ : nullptr);
-  const StepReport report = take_whole_step(*method_, strain_limit_, dynamics_, h, state_,
-                                            measures_reactions_ ? &impulses_ : nullptr);
+  const StepReport report =
+      take_whole_step(*method_, strain_limit_, dynamics_, h, state_, measures_reactions_ ? &impulses_ : nullptr);
   last_step_ = state_.time - begin;
   counters_.limit_sweeps += static_cast<std::uint64_t>(report.limit_sweeps);
   counters_.force_evaluations += static_cast<std::uint64_t>(report.force_evaluations);

@@ -17,8 +17,8 @@ namespace cloth
 /// Generous: only a test that fails waits so long.
 constexpr std::chrono::seconds patience{ 20 };
 
-/// Runs callbacks until `condition` holds, which is asked after each of them: none that comes later has run then. False:
-/// it did not in time.
+/// Runs callbacks until `condition` holds, which is asked after each of them: none that comes later has run then.
+/// False: it did not in time.
 inline bool wait_until(const std::function<bool()>& condition)
 {
   const auto end = std::chrono::steady_clock::now() + patience;

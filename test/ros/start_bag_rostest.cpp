@@ -33,7 +33,8 @@ using visualization_msgs::MarkerArray;
 const std::string state_topic = "/cloth_node/state";
 const std::string topology_topic = "/cloth_node/topology";
 // Plain sweeps shorten a spring without regard to what was before the step, of which a recording knows nothing; and
-// auto would try anew what to take from the recorded state on. A step that follows stability is worked out now and then.
+// auto would try anew what to take from the recorded state on. A step that follows stability is worked out now and
+// then.
 const std::vector<std::string> scene{ "_rate:=50",
                                       "_cloth/rows:=8",
                                       "_cloth/cols:=6",
