@@ -8,7 +8,6 @@
 
 namespace cloth
 {
-
 namespace
 {
 

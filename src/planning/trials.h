@@ -54,8 +54,8 @@ public:
   /// together.
   double change_without(const std::vector<std::string>& parts, const Stepping& stepping);
 
-  /// The motion on the coarser grid. Cut off where it takes several times as long as the scout's at the same steps, or
-  /// longer than the scout's at its longest ones where it solves equations.
+  /// The motion on the coarser grid. Cut off where it takes many times as long as steps of its length do, and where it
+  /// solves equations once it takes a quarter of what the scout's longest steps take.
   const Motion& motion(const Stepping& stepping);
 
   const StartedScene& scene() const

@@ -15,7 +15,7 @@ namespace cloth
 struct ErrorBounds
 {
   double tolerance = 0.0;     ///< m; root mean square over all nodes and 1 s; 0: nobody asks
-  double room = 1.0;          ///< steps of this part of the first ones' length take too long
+  double room = 1.0;          ///< steps shorter than this part of the first ones take too long
   double longest_step = 0.0;  ///< s
 };
 
