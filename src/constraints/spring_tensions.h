@@ -1,9 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "cloth_sim/model/cloth_model.h"
 
+#include "../model/aligned_vectors.h"
+#include "../model/spring_layout.h"
+#include "dual_parabola.h"
 #include "shortening.h"
-#include "tension_passes.h"
 
 namespace cloth
 {
@@ -34,7 +38,53 @@ public:
   void go_on_from(const Shortening& before) override;
 
 private:
-  TensionPasses<double> passes_;
+  /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do
+  /// not. Within a step it stays the same.
+  static constexpr double margin_growth = 1.5;
+  static constexpr double margin_decay = 0.98;
+  static constexpr int few = 2;
+  /// The most by which tensions grow before a step's passes: not at all where the last step did not reach the limit.
+  static constexpr double most_growth = 2.0;
+  static constexpr double most_growth_of_a_failure = 1.0;
+  static constexpr int mark_size = spring_row_size;  ///< nodes are marked as moved by so many
+
+  /// The longest of some springs.
+  enum class Lengths
+  {
+    slack,
+    taut,     ///< as long as tensions hold a spring, or longer: it gets one in the next pass
+    too_long  ///< longer than the limit and its tolerance allow: there must be a next pass
+  };
+
+  struct Run
+  {
+    SpringRun springs;
+    int first;              ///< of its tensions
+    bool is_taut = false;   ///< some spring has a tension, or was found taut
+    long found_slack = -1;  ///< when all of its springs were
+  };
+
+  double target_length(const Run& run) const;
+  /// Pulls with the tensions of the last step times the factor that is best for them. False: they are of no use.
+  bool pull_as_before(const double* inverse_masses, const Columns<double>& positions);
+  Lengths find_taut(const double* inverse_masses, const Columns<double>& positions);
+  void relax_taut(bool backwards, const double* inverse_masses, const Columns<double>& positions);
+  template <bool fused>
+  void relax_run(Run& run, const double* inverse_masses, const Columns<double>& positions);
+  void add_tensions_to(const Columns<double>& shifts) const;
+  void mark_moved(int node, int n);
+  long last_move(int node, int n) const;
+
+  std::vector<SpringBatch> batches_;
+  std::vector<Run> runs_;
+  int nodes_;
+  double max_strain_ = 0.0;  ///< of the step
+  bool reached_ = true;
+  double margin_ = StrainLimit::least_margin;
+  AlignedVectors<double> tensions_;  ///< one for each spring, kg m
+  AlignedVectors<double> shifts_;    ///< what the tensions of the last step ask for, m
+  std::vector<long> moved_at_;       ///< for each mark_size nodes
+  long now_ = 0;                     ///< counts passes
 };
 
 }  // namespace cloth

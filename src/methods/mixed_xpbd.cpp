@@ -1,18 +1,15 @@
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "cloth_sim/model/part_calls.h"
-#include "cloth_sim/model/spring_rows.h"
 #include "cloth_sim/model/wide_vectors.h"
 
-#include "../constraints/shortening.h"
-#include "../constraints/tension_passes.h"
-#include "../constraints/tether_lengths.h"
+#include "../constraints/lane_tensions.h"
 #include "../model/aligned_vectors.h"
+#include "../model/lane_nodes.h"
 #include "../model/spring_layout.h"
+#include "lane_springs.h"
 #include "rows.h"
-#include "small_step_springs.h"
 
 namespace cloth
 {
@@ -65,7 +62,8 @@ private:
 
 /// The method of xpbd.cpp in mixed precision: the state is kept in doubles, and a step adds to it what its substeps
 /// come to in single precision, positions relative to the sheet's middle. Nodes are in the order of LaneLayout. A
-/// strain limit is kept after every substep. Wind along normals is worked out in doubles.
+/// strain limit is followed in every substep and kept at the end of each step. Wind along normals is worked out in
+/// doubles.
 class MixedPositionBasedDynamics : public Method
 {
 public:
@@ -73,10 +71,11 @@ public:
   {
   }
 
-  void limit_strain(double max_strain, int passes) override
+  bool limit_strain(double max_strain, int passes) override
   {
     max_strain_ = max_strain;
     passes_ = passes;
+    return true;
   }
 
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
@@ -99,12 +98,12 @@ public:
       {
         record_external_forces(dynamics, substep, state);
       }
-      project(dynamics.model(), substep);
-      go_the_way(substep);
+      correct(dynamics.model());
       if (max_strain_ > 0.0)
       {
-        report.limit_sweeps += shorten(substep);
+        report.limit_sweeps += shorten(s == substeps_);
       }
+      go_the_way(substep);
     }
     end_step(dynamics.pins(), substep, state);
     report.force_evaluations = substeps_;
@@ -112,26 +111,19 @@ public:
   }
 
 private:
-  static constexpr int rows_a_band = 8;  ///< whose springs are done batch by batch: they stay in the nearest cache
-
-  /// What does not change from step to step, and the tensions of the last.
+  /// What does not change from step to step, and what a step hands on to the next.
   struct Sheet
   {
-    explicit Sheet(const ClothModel& model)
-      : layout(model)
-      , springs(layout.runs(model.springs, rows_a_band))
-      , limit(limited_batches(model), layout.runs(limited_batches(model), 1), layout.nodes())
-      , tether_lengths(model)
+    explicit Sheet(const ClothModel& model) : layout(model), springs(model, layout), limit(model, layout)
     {
       for (int node = 0; node < model.nodes(); ++node)
       {
         numbers.push_back(layout[node]);
       }
-      const int room = layout.nodes();
       for (AlignedVectors<float>* const vectors :
-           { &positions.singles(), &velocities.singles(), &accelerations.singles(), &ways, &before, &inertias })
+           { &positions.singles(), &velocities.singles(), &accelerations.singles(), &ways, &inertias })
       {
-        vectors->set_zero(room);
+        vectors->set_zero(layout.nodes());
       }
     }
 
@@ -139,19 +131,26 @@ private:
     {
       return inertias.from(0)[0];
     }
+    /// What the air leaves of a speed.
+    const float* remainders() const
+    {
+      return inertias.from(0)[1];
+    }
+    LaneNodes nodes()
+    {
+      return { inverse_masses(), positions.singles().from(0), ways.from(0), layout.nodes() };
+    }
 
     LaneLayout layout;
     std::vector<int> numbers;  ///< of the model's nodes
-    std::vector<SpringRun> springs;
-    TensionPasses<float> limit;
-    TetherLengths tether_lengths;
-    std::vector<int> held;  ///< nodes that there are tethers to
+    LaneSprings springs;
+    LaneTensions limit;
+    std::vector<int> held;
     SingleCopy positions;
     SingleCopy velocities;
     SingleCopy accelerations;
     AlignedVectors<float> ways;      ///< since the substep's begin, m
-    AlignedVectors<float> before;    ///< positions at the substep's begin, or before the limit
-    AlignedVectors<float> inertias;  ///< inverse masses, what the air leaves of a speed, and one
+    AlignedVectors<float> inertias;  ///< inverse masses and remainders
     AlignedVectors<float> pulls;     ///< what springs gave to nodes in this step, kg m, where that is recorded
   };
 
@@ -175,28 +174,20 @@ private:
       const double mass = model.masses[node];
       inertias[0][number] = static_cast<float>(inverse_masses_[node]);
       inertias[1][number] = static_cast<float>(mass / (mass + damping * model.areas[node]));
-      inertias[2][number] = 1.0F;
     }
-    use_tethers(dynamics.pins());
+    sheet.held.clear();
+    for (const Pin& pin : dynamics.pins().all())
+    {
+      sheet.held.insert(sheet.held.end(), pin.nodes.begin(), pin.nodes.end());
+    }
+    sheet.springs.prepare(model, compliance_, substep, sheet.inverse_masses());
+    if (max_strain_ > 0.0)
+    {
+      sheet.limit.prepare(sheet.inverse_masses(), sheet.held);
+    }
     if (records())
     {
       sheet.pulls.set_zero(sheet.layout.nodes());
-    }
-  }
-
-  void use_tethers(const Pins& pins)
-  {
-    std::vector<int> held;
-    for (const Pin& pin : pins.all())
-    {
-      held.insert(held.end(), pin.nodes.begin(), pin.nodes.end());
-    }
-    Sheet& sheet = *sheet_;
-    if (held != sheet.held)
-    {
-      sheet.held.swap(held);
-      sheet.limit.use_tethers(sheet.tether_lengths.tethers<float>(sheet.held, sheet.layout.nodes(),
-                                                                  [&](int node) { return sheet.layout[node]; }));
     }
   }
 
@@ -204,37 +195,41 @@ private:
   void predict(const Dynamics& dynamics, double h, ClothState& state)
   {
     Sheet& sheet = *sheet_;
+    const bool is_coupled = dynamics.air().is_coupled(dynamics.model());
     const auto step = static_cast<float>(h);
-    for_each_column(sheet.velocities.singles(), sheet.accelerations.singles(),
-                    [=](float* v, const float* a, int i) { v[i] += step * a[i]; });
-    if (dynamics.air().is_coupled(dynamics.model()))
+    if (is_coupled)
     {
       bring_up_to_date(state);
+      dynamics.external_forces_on_all(state.time, forces_);
+      dynamics.accelerations_of(forces_, forces_);
+      state.velocities += h * forces_;
       dynamics.air().damp_implicitly(dynamics.model(), state.time + h, state.positions, h, state.velocities);
       sheet.velocities.take(state.velocities, Eigen::RowVector3d::Zero(), sheet.numbers);
     }
-    const float* const part = sheet.inertias.from(0)[1];
+    const float* const remainders = sheet.remainders();
     const float* const w = sheet.inverse_masses();
-    for_each_column(sheet.ways, sheet.velocities.singles(),
-                    [=](float* way, const float* v, int i) { way[i] = w[i] > 0.0F ? step * (part[i] * v[i]) : 0.0F; });
-    sheet.before = sheet.positions.singles();
+    const float gain = is_coupled ? 0.0F : step;
+    for_each_column([&](size_t d) {
+      return [=, way = sheet.ways.from(0)[d], v = sheet.velocities.singles().from(0)[d],
+              a = sheet.accelerations.singles().from(0)[d]](int i) {
+        way[i] = w[i] > 0.0F ? step * (remainders[i] * (v[i] + gain * a[i])) : 0.0F;
+      };
+    });
   }
 
-  /// work(first[d], second[d], i) for all d and i.
-  template <typename Work>
-  void for_each_column(AlignedVectors<float>& first, const AlignedVectors<float>& second, Work&& work)
+  /// work_on(d)(i) for all coordinates d and nodes i.
+  template <typename WorkOn>
+  void for_each_column(WorkOn&& work_on)
   {
     const int n = sheet_->layout.nodes();
     in_widest_vectors([&, n](auto) {
       for (size_t d = 0; d < 3; ++d)
       {
-        float* const a = first.from(0)[d];
-        const float* const b = second.from(0)[d];
-        const auto local = work;
+        const auto work = work_on(d);
 #pragma GCC ivdep
         for (int i = 0; i < n; ++i)
         {
-          local(a, b, i);
+          work(i);
         }
       }
     });
@@ -270,35 +265,31 @@ private:
     }
   }
 
-  void project(const ClothModel& model, double h)
+  void correct(const ClothModel& model)
   {
-    gains_.clear();
     for (const SpringBatch& batch : model.springs)
     {
       count_call(batch);
       part_calls()[Part::internal_damping] += compliance_ * batch.damping > 0.0 ? 1 : 0;
-      gains_.push_back(gains_of<float>(batch, compliance_, h));
     }
     Sheet& sheet = *sheet_;
-    in_widest_vectors([&](auto arithmetic) {
-      const float* const w = sheet.inverse_masses();
-      const Columns<float> all_ways = sheet.ways.from(0);
-      const Columns<float> all_before = sheet.before.from(0);
-      for (const SpringRun& run : sheet.springs)
-      {
-        const SpringRow<float> ways(w, all_ways, run.node, run.offset, run.n);
-        const SpringRow<float> before(w, all_before, run.node, run.offset, run.n);
-        RowChanges<float> changes;
-        find_changes<arithmetic.has_fused_multiply_add>(
-            ways, before, gains_[run.batch], [](int) { return true; }, changes);
-        move_ends(ways, changes);
-        if (records())
-        {
-          const Columns<float> inertias = sheet.inertias.from(0);
-          move_ends(SpringRow<float>(inertias[2], sheet.pulls.from(0), run.node, run.offset, run.n), changes);
-        }
-      }
-    });
+    sheet.springs.correct(sheet.nodes(), records() ? &sheet.pulls : nullptr);
+  }
+
+  /// The strain limit. Returns the passes that it took.
+  int shorten(bool is_last)
+  {
+    Sheet& sheet = *sheet_;
+    int passes = sheet.limit.follow(sheet.nodes(), max_strain_, passes_);
+    if (is_last)
+    {
+      passes += sheet.limit.finish(sheet.nodes(), max_strain_, passes_);
+    }
+    if (records())
+    {
+      sheet.limit.add_tensions_to(sheet.pulls.from(0));
+    }
+    return passes;
   }
 
   void go_the_way(double h)
@@ -306,31 +297,13 @@ private:
     Sheet& sheet = *sheet_;
     const auto rate = static_cast<float>(1.0 / h);
     const float* const w = sheet.inverse_masses();
-    for_each_column(sheet.velocities.singles(), sheet.ways,
-                    [=](float* v, const float* way, int i) { v[i] = w[i] > 0.0F ? rate * way[i] : v[i]; });
-    for_each_column(sheet.positions.singles(), sheet.ways, [](float* x, const float* way, int i) { x[i] += way[i]; });
-  }
-
-  /// The strain limit. Returns the passes that it took.
-  int shorten(double h)
-  {
-    Sheet& sheet = *sheet_;
-    sheet.before = sheet.positions.singles();
-    const StrainLimit::Report report =
-        sheet.limit.shorten(sheet.inverse_masses(), max_strain_, passes_, sheet.positions.singles().from(0));
-    if (report.moved)
-    {
-      const auto rate = static_cast<float>(1.0 / h);
-      for_each_column(sheet.before, sheet.positions.singles(),
-                      [](float* x, const float* after, int i) { x[i] = after[i] - x[i]; });
-      for_each_column(sheet.velocities.singles(), sheet.before,
-                      [=](float* v, const float* way, int i) { v[i] += rate * way[i]; });
-    }
-    if (records())
-    {
-      sheet.limit.add_tensions_to(sheet.pulls.from(0));
-    }
-    return report.sweeps;
+    for_each_column([&](size_t d) {
+      return [=, way = sheet.ways.from(0)[d], x = sheet.positions.singles().from(0)[d],
+              v = sheet.velocities.singles().from(0)[d]](int i) {
+        x[i] += way[i];
+        v[i] = w[i] > 0.0F ? rate * way[i] : v[i];
+      };
+    });
   }
 
   void record_external_forces(const Dynamics& dynamics, double h, const ClothState& state)
@@ -359,7 +332,6 @@ private:
   double max_strain_ = 0.0;
   int passes_ = 0;
   std::unique_ptr<Sheet> sheet_;
-  std::vector<Gains<float>> gains_;
   std::vector<Eigen::RowVector3d> held_before_;
   Vectors forces_;
   Eigen::VectorXd inverse_masses_;

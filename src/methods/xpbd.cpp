@@ -13,6 +13,47 @@ namespace cloth
 namespace
 {
 
+/// The chosen springs' changes, from the ends' ways since the step's begin and the positions then.
+template <bool fused, typename IsChosen>
+void find_changes(const SpringRow& ways, const SpringRow& before, const Gains<double>& gains, IsChosen&& is_chosen,
+                  RowChanges& changes)
+{
+  const Gains<double> local = gains;
+  const double* const w_i = ways.w_i;
+  const double* const w_j = ways.w_j;
+  const double* const way_x_i = ways.i[0];
+  const double* const way_y_i = ways.i[1];
+  const double* const way_z_i = ways.i[2];
+  const double* const way_x_j = ways.j[0];
+  const double* const way_y_j = ways.j[1];
+  const double* const way_z_j = ways.j[2];
+  const double* const x_i = before.i[0];
+  const double* const y_i = before.i[1];
+  const double* const z_i = before.i[2];
+  const double* const x_j = before.j[0];
+  const double* const y_j = before.j[1];
+  const double* const z_j = before.j[2];
+  const int n = ways.n;
+  const int padded = ways.padded();
+#pragma GCC ivdep
+  for (int k = 0; k < padded; ++k)
+  {
+    const double way_x = way_x_j[k] - way_x_i[k];
+    const double way_y = way_y_j[k] - way_y_i[k];
+    const double way_z = way_z_j[k] - way_z_i[k];
+    const double x = x_j[k] - x_i[k] + way_x;
+    const double y = y_j[k] - y_i[k] + way_y;
+    const double z = z_j[k] - z_i[k] + way_z;
+    const double w = w_i[k] + w_j[k];
+    const double excess = correction<fused>(x * x + y * y + z * z, x * way_x + y * way_y + z * way_z,
+                                            local.rest_length, local.damping);
+    const double part = is_chosen(k) && k < n && w > 0.0 ? excess / resistance(local, w) : 0.0;
+    changes.x[k] = part * x;
+    changes.y[k] = part * y;
+    changes.z[k] = part * z;
+  }
+}
+
 /// Extended position-based dynamics (Macklin, Mueller and Chentanez 2016) in small substeps of one pass over the
 /// springs each (Macklin et al., "Small steps in physics simulation", 2019). A spring is the constraint |l| = l0 with
 /// the compliance 1/k and internal damping c in their physical units (equation 26 of 2016, with one pass):
@@ -88,7 +129,7 @@ private:
     add_impulses(h, accelerations_);
   }
 
-  void record(const RowChanges<double>& changes, int node, int offset, int n, double h)
+  void record(const RowChanges& changes, int node, int offset, int n, double h)
   {
     for (int k = 0; k < n; ++k)
     {
@@ -151,9 +192,9 @@ private:
   template <bool fused, typename IsChosen>
   void project_block(int node, int offset, int n, const Gains<double>& gains, IsChosen&& is_chosen, double h)
   {
-    const SpringRow<double> ways(inverse_masses_.data(), columns_of(ways_), node, offset, n);
-    const SpringRow<double> before(inverse_masses_.data(), columns_of(before_), node, offset, n);
-    RowChanges<double> changes;
+    const SpringRow ways(inverse_masses_.data(), columns_of(ways_), node, offset, n);
+    const SpringRow before(inverse_masses_.data(), columns_of(before_), node, offset, n);
+    RowChanges changes;
     find_changes<fused>(ways, before, gains, is_chosen, changes);
     move_ends(ways, changes);
     if (records())

@@ -41,6 +41,9 @@ struct AlignedAllocator
   static constexpr std::align_val_t alignment{ 64 };
 };
 
+template <typename Scalar>
+using AlignedNumbers = std::vector<Scalar, AlignedAllocator<Scalar>>;
+
 /// Vectors by columns, each of which begins where a vector register does: loads that lie across two lines of the cache
 /// take twice as long.
 template <typename Scalar>
@@ -73,7 +76,7 @@ public:
 
 private:
   int stride_ = 0;
-  std::vector<Scalar, AlignedAllocator<Scalar>> values_;
+  AlignedNumbers<Scalar> values_;
 };
 
 }  // namespace cloth

@@ -26,9 +26,11 @@ std::vector<SpringRun> runs_by_rows(const std::vector<SpringBatch>& batches, int
   return runs;
 }
 
-// Springs reach two columns, and a run's first ends must not be its second ends too: hence three vectors at least.
+// Springs reach two columns, and where they go on from the last vectors of a row to the first, a lane further, what is
+// loaded and stored for the second ends takes in a lane of the vector behind these, which must not be one of the first
+// ends: hence four vectors at least.
 LaneLayout::LaneLayout(const ClothModel& model)
-  : rows_(model.rows), cols_(model.cols), vectors_a_row_(std::max(3, (model.cols + lanes - 1) / lanes))
+  : rows_(model.rows), cols_(model.cols), vectors_a_row_(std::max(4, (model.cols + lanes - 1) / lanes))
 {
 }
 

@@ -52,10 +52,11 @@ public:
   {
   }
 
-  /// From now on a method that corrects the strain after each of its substeps keeps it below max_strain (0: no limit)
-  /// in at most so many passes. Others leave that to whoever calls `step`.
-  virtual void limit_strain(double /*max_strain*/, int /*passes*/)
+  /// True: from now on the method keeps the strain below max_strain (0: no limit) at the end of every step, in at most
+  /// so many passes there. False: it leaves that to whoever calls `step`.
+  virtual bool limit_strain(double /*max_strain*/, int /*passes*/)
   {
+    return false;
   }
 
   /// From now on every step adds to the rows of held nodes of `impulses` what the forces on them come to over the step,

@@ -36,7 +36,8 @@ inline double inverse_root(double square)
   return square >= least ? y : 0.0;
 }
 
-/// The same in single precision, within 3 units in the last place.
+/// The same in single precision, within 3 units in the last place: one step is enough, in which the root is the
+/// polynomial of fourth degree closest to it, relatively, which leaves 2.5e-8.
 template <bool fused>
 inline float inverse_root(float square)
 {
@@ -50,10 +51,8 @@ inline float inverse_root(float square)
   bits = 0x5F37642F - (bits >> 1);
   float y;
   std::memcpy(&y, &bits, sizeof y);
-  float h = 1.0F - square * y * y;
-  y *= 0.99999925F + h * (0.50000132F + h * (0.37627812F + h * 0.31279764F));
-  h = 1.0F - square * y * y;
-  y += y * h * 0.5F;
+  const float h = 1.0F - square * y * y;
+  y *= 1.0F + h * (0.49999824F + h * (0.37499721F + h * (0.31397508F + h * 0.27503636F)));
   return square >= least ? y : 0.0F;
 }
 

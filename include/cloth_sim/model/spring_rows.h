@@ -30,12 +30,10 @@ Columns<typename Derived::Scalar> columns_of(Derived& vectors)
 }
 
 /// At most `spring_row_size` springs in a row of a batch: spring k joins node i + k and the node `offset` further on.
-/// In single precision they are one vector at most.
-template <typename Scalar>
 struct SpringRow
 {
   /// `vectors` are what is corrected: positions, shifts.
-  SpringRow(const Scalar* inverse_masses, const Columns<Scalar>& vectors, int node, int offset, int springs)
+  SpringRow(const double* inverse_masses, const Columns<double>& vectors, int node, int offset, int springs)
     : w_i(inverse_masses + node)
     , w_j(w_i + offset)
     , i{ vectors[0] + node, vectors[1] + node, vectors[2] + node }
@@ -47,39 +45,37 @@ struct SpringRow
   /// n and what makes it a whole number of vectors.
   int padded() const
   {
-    constexpr int lanes = lanes_of<Scalar>;
+    constexpr int lanes = lanes_of<double>;
     return (n + lanes - 1) / lanes * lanes;
   }
 
-  const Scalar* w_i;  ///< inverse masses of the first ends
-  const Scalar* w_j;
-  std::array<Scalar*, 3> i;  ///< x, y, z of the first ends
-  std::array<Scalar*, 3> j;
+  const double* w_i;  ///< inverse masses of the first ends
+  const double* w_j;
+  std::array<double*, 3> i;  ///< x, y, z of the first ends
+  std::array<double*, 3> j;
   int n;
 };
 
 /// A vector for each spring of a row, and zero for what makes it a whole number of vectors.
-template <typename Scalar>
 struct RowChanges
 {
-  alignas(64) Scalar x[spring_row_size];
-  alignas(64) Scalar y[spring_row_size];
-  alignas(64) Scalar z[spring_row_size];
+  alignas(64) double x[spring_row_size];
+  alignas(64) double y[spring_row_size];
+  alignas(64) double z[spring_row_size];
 };
 
 /// Moves the first ends by the changes over their masses, the second ends the other way.
-template <typename Scalar>
-void move_ends(const SpringRow<Scalar>& row, const RowChanges<Scalar>& changes)
+inline void move_ends(const SpringRow& row, const RowChanges& changes)
 {
-  const Scalar* const columns[] = { changes.x, changes.y, changes.z };
-  const Scalar* const w_i = row.w_i;
-  const Scalar* const w_j = row.w_j;
+  const double* const columns[] = { changes.x, changes.y, changes.z };
+  const double* const w_i = row.w_i;
+  const double* const w_j = row.w_j;
   const int n = row.padded();
   for (size_t d = 0; d < 3; ++d)
   {
-    const Scalar* const change = columns[d];
-    Scalar* const i = row.i[d];
-    Scalar* const j = row.j[d];
+    const double* const change = columns[d];
+    double* const i = row.i[d];
+    double* const j = row.j[d];
 #pragma GCC ivdep
     for (int k = 0; k < n; ++k)
     {

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <vector>
+
+#include "cloth_sim/constraints/strain_limit.h"
+#include "cloth_sim/model/cloth_model.h"
+
+#include "../model/aligned_vectors.h"
+#include "../model/lane_nodes.h"
+#include "../model/spring_layout.h"
+#include "dual_parabola.h"
+#include "lane_tethers.h"
+
+namespace cloth
+{
+
+/// SpringTensions in single precision, 16 springs at a time, for a method that takes short substeps: tensions change so
+/// little from one to the next that a pass in each keeps up with them. More are made where a sheet falls behind, and at
+/// a step's end until the limit is kept. As substeps leave springs a little longer than a pass aims at, it aims at a
+/// margin below the limit, which grows when the end of a step takes many passes, and dies away while it does not.
+class LaneTensions
+{
+public:
+  LaneTensions(const ClothModel& model, const LaneLayout& layout);
+
+  /// To be called whenever masses (1/kg) have changed. `held`: numbers of nodes in the model.
+  void prepare(const float* inverse_masses, const std::vector<int>& held);
+
+  /// To be called in every substep, after the springs have had their say: one pass, and more where the strain is far
+  /// above max_strain, but at most `passes`. Returns how many.
+  int follow(const LaneNodes& nodes, double max_strain, int passes);
+
+  /// To be called once more in the last substep of a step: as many passes as max_strain takes, at most `passes`.
+  int finish(const LaneNodes& nodes, double max_strain, int passes);
+
+  /// Adds the pull of the tensions on every node, kg m.
+  void add_tensions_to(const Columns<float>& pulls) const;
+
+private:
+  /// Relative to max_strain. The margin is the first to begin with, and anew when the sheet falls behind.
+  static constexpr double first_margin = 0.15;
+  static constexpr double most_margin = 0.3;
+  static constexpr double margin_growth = 1.5;  ///< a step
+  static constexpr double margin_decay = 0.99;
+  /// The excess that there may be, relative to max_strain. Rounding of the positions takes its part of
+  /// StrainLimit::tolerance.
+  static constexpr double excess_between = 0.05;
+  static constexpr double excess_at_end = 0.5 * StrainLimit::tolerance;
+  static constexpr int most_passes_between = 10;
+  static constexpr int follows_a_watch = 2;   ///< so seldom is the excess looked at while nothing falls behind
+  static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
+
+  enum class Springs
+  {
+    taut,
+    all
+  };
+
+  struct Run
+  {
+    SpringRun springs;
+    int first;             ///< of its tensions
+    bool is_taut = false;  ///< some spring has a tension
+  };
+
+  /// Of springs at the margin, in lengths at rest.
+  float stretch_held(double max_strain) const;
+  /// Pulls with the tensions of the last substep times the factor that is best for them, and returns it: tensions are
+  /// multiplied by it in the pass that follows.
+  float pull_as_before(const LaneNodes& nodes, float stretch);
+  /// A pass. Slack springs are looked at in every second one. Returns whether any is taut.
+  bool relax(const LaneNodes& nodes, float stretch, float factor);
+  bool has_longer(const LaneNodes& nodes, float stretch, Springs springs) const;
+
+  std::vector<float> rest_lengths_;  ///< of the batches, m
+  std::vector<Run> runs_;
+  LaneTethers tethers_;
+  double margin_ = first_margin;
+  bool falls_behind_ = false;  ///< one pass a substep was not enough
+  bool backwards_ = false;     ///< the last pass
+  int follows_ = 0;
+  AlignedVectors<float> tensions_;        ///< kg m
+  AlignedNumbers<float> reduced_masses_;  ///< of every spring 1/(1/m_i + 1/m_j), kg; 0: none, or held at both ends
+  AlignedVectors<float> shifts_;          ///< what the tensions of the last substep ask for, m
+};
+
+}  // namespace cloth

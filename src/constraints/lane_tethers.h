@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include "cloth_sim/model/cloth_model.h"
+
+#include "../model/aligned_vectors.h"
+#include "../model/lane_nodes.h"
+#include "../model/spring_layout.h"
+#include "dual_parabola.h"
+#include "spring_ways.h"
+
+namespace cloth
+{
+
+/// A spring from every node to each of those that are held, as long as the shortest way along springs between them (Kim,
+/// Chentanez and Mueller-Fischer, "Long range attachments", 2012). It forbids nothing that they allow, and says in one
+/// pass what they pass on from one to the next; but which of both is to pull is open, so that the last digits of a
+/// correction from nothing take more passes than without. Tensions are those of LaneTensions.
+class LaneTethers
+{
+public:
+  LaneTethers(const ClothModel& model, const LaneLayout& layout);
+
+  /// From now on these nodes of the model are held. Where they are many there are no tethers: a pass visits every node
+  /// for each of them.
+  void hold(const std::vector<int>& held);
+
+  /// Adds what the tensions ask for to the shifts of nodes and to the parabola. `stretch`: how long tethers may be, in
+  /// lengths at rest.
+  void add_shifts(const LaneNodes& nodes, float stretch, const Columns<float>& shifts,
+                  DualParabola<float>& parabola) const;
+
+  /// A pass. Tensions are multiplied by `factor` before.
+  void relax(const LaneNodes& nodes, float stretch, float factor);
+
+  /// Adds the pull of the tensions on both ends, kg m.
+  void add_tensions_to(const Columns<float>& pulls) const;
+
+private:
+  static constexpr size_t most = 4;
+  static constexpr int passes_between_looks = 8;  ///< at slack tethers: springs forbid what they do in any case
+
+  struct Tether
+  {
+    int node;                      ///< the held one
+    AlignedNumbers<float> lengths;  ///< from all others, m; 0: none
+    AlignedVectors<float> tensions;
+    std::vector<char> is_taut;  ///< of every vector of nodes: some have a tension
+  };
+
+  const LaneLayout layout_;
+  const int nodes_;  ///< of the model
+  const bool has_ways_;
+  const SpringWays ways_;
+  std::vector<int> held_;
+  std::vector<Tether> tethers_;
+  int passes_ = 0;
+};
+
+}  // namespace cloth
