@@ -122,23 +122,22 @@ LaneTensions::LaneTensions(const ClothModel& model, const LaneLayout& layout) : 
     first += lanes;
   }
   tensions_.set_zero(first);
-  reduced_masses_.assign(static_cast<size_t>(first), 0.0F);
   shifts_.set_zero(layout.nodes());
 }
 
 void LaneTensions::prepare(const float* inverse_masses, const std::vector<int>& held)
 {
   tethers_.hold(held);
+  reduced_masses_.clear();
   for (const Run& run : runs_)
   {
-    const float* const w_i = inverse_masses + run.springs.node;
-    const float* const w_j = w_i + run.springs.offset;
-    float* const reduced_mass = reduced_masses_.data() + run.first;
+    LaneTable::Row masses{};
     for (int k = 0; k < run.springs.n; ++k)
     {
-      const float w = w_i[k] + w_j[k];
-      reduced_mass[k] = w > 0.0F ? 1.0F / w : 0.0F;
+      const float w = inverse_masses[run.springs.node + k] + inverse_masses[run.springs.node + run.springs.offset + k];
+      masses[static_cast<size_t>(k)] = w > 0.0F ? 1.0F / w : 0.0F;
     }
+    reduced_masses_.add(masses);
   }
 }
 
@@ -227,9 +226,10 @@ bool LaneTensions::relax(const LaneNodes& nodes, float stretch, float factor)
     const size_t n = runs_.size();
     for (size_t r = 0; r < n; ++r)
     {
-      Run& run = runs_[backwards_ ? n - 1 - r : r];
+      const size_t number = backwards_ ? n - 1 - r : r;
+      Run& run = runs_[number];
       const LaneEnds ends(nodes, run.springs);
-      const float* const reduced_masses = reduced_masses_.data() + run.first;
+      const float* const reduced_masses = reduced_masses_[number];
       const float longest = stretch * rest_lengths_[run.springs.batch];
       if (run.is_taut || (backwards_ && run_has_longer(ends, reduced_masses, longest)))
       {
@@ -248,11 +248,12 @@ bool LaneTensions::has_longer(const LaneNodes& nodes, float stretch, Springs spr
   ++part_calls()[Part::strain_watch];
   bool found = false;
   in_widest_vectors([&](auto) {
-    for (auto run = runs_.begin(); run != runs_.end() && !found; ++run)
+    for (size_t r = 0; r < runs_.size() && !found; ++r)
     {
-      found = (springs == Springs::all || run->is_taut) &&
-              run_has_longer(LaneEnds(nodes, run->springs), reduced_masses_.data() + run->first,
-                             stretch * rest_lengths_[run->springs.batch]);
+      const Run& run = runs_[r];
+      found = (springs == Springs::all || run.is_taut) &&
+              run_has_longer(LaneEnds(nodes, run.springs), reduced_masses_[r],
+                             stretch * rest_lengths_[run.springs.batch]);
     }
   });
   return found;

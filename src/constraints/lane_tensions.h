@@ -7,6 +7,7 @@
 
 #include "../model/aligned_vectors.h"
 #include "../model/lane_nodes.h"
+#include "../model/lane_table.h"
 #include "../model/spring_layout.h"
 #include "dual_parabola.h"
 #include "lane_tethers.h"
@@ -79,9 +80,9 @@ private:
   bool falls_behind_ = false;  ///< one pass a substep was not enough
   bool backwards_ = false;     ///< the last pass
   int follows_ = 0;
-  AlignedVectors<float> tensions_;        ///< kg m
-  AlignedNumbers<float> reduced_masses_;  ///< of every spring 1/(1/m_i + 1/m_j), kg; 0: none, or held at both ends
-  AlignedVectors<float> shifts_;          ///< what the tensions of the last substep ask for, m
+  AlignedVectors<float> tensions_;  ///< kg m
+  LaneTable reduced_masses_;        ///< of every run's springs 1/(1/m_i + 1/m_j), kg; 0: none, or held at both ends
+  AlignedVectors<float> shifts_;    ///< what the tensions of the last substep ask for, m
 };
 
 }  // namespace cloth

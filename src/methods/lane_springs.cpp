@@ -61,7 +61,6 @@ void correct_run(const LaneEnds& ends, const Gains<float>& gains, const float* y
 LaneSprings::LaneSprings(const ClothModel& model, const LaneLayout& layout)
   : runs_(layout.runs(model.springs, rows_a_band))
 {
-  yields_.assign(runs_.size() * lanes, 0.0F);
 }
 
 void LaneSprings::prepare(const ClothModel& model, double compliance, double h, const float* inverse_masses)
@@ -71,17 +70,16 @@ void LaneSprings::prepare(const ClothModel& model, double compliance, double h, 
   {
     gains_.push_back(gains_of<float>(batch, compliance, h));
   }
-  float* yield = yields_.data();
+  yields_.clear();
   for (const SpringRun& run : runs_)
   {
-    const float* const w_i = inverse_masses + run.node;
-    const float* const w_j = w_i + run.offset;
+    LaneTable::Row yields{};
     for (int k = 0; k < run.n; ++k)
     {
-      const float w = w_i[k] + w_j[k];
-      yield[k] = w > 0.0F ? 1.0F / resistance(gains_[run.batch], w) : 0.0F;
+      const float w = inverse_masses[run.node + k] + inverse_masses[run.node + run.offset + k];
+      yields[static_cast<size_t>(k)] = w > 0.0F ? 1.0F / resistance(gains_[run.batch], w) : 0.0F;
     }
-    yield += lanes;
+    yields_.add(yields);
   }
 }
 
@@ -104,11 +102,10 @@ template <bool fused, bool records>
 void LaneSprings::correct_all(const LaneNodes& nodes, const Columns<float>& pulls) const
 {
   const LaneNodes pulled{ nodes.inverse_masses, nodes.positions, pulls, nodes.nodes };
-  const float* yields = yields_.data();
-  for (const SpringRun& run : runs_)
+  for (size_t r = 0; r < runs_.size(); ++r)
   {
-    correct_run<fused, records>(LaneEnds(nodes, run), gains_[run.batch], yields, LaneEnds(pulled, run));
-    yields += lanes;
+    const SpringRun& run = runs_[r];
+    correct_run<fused, records>(LaneEnds(nodes, run), gains_[run.batch], yields_[r], LaneEnds(pulled, run));
   }
 }
 

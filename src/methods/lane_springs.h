@@ -6,6 +6,7 @@
 
 #include "../model/aligned_vectors.h"
 #include "../model/lane_nodes.h"
+#include "../model/lane_table.h"
 #include "../model/spring_layout.h"
 #include "small_step_springs.h"
 
@@ -32,7 +33,7 @@ private:
 
   std::vector<SpringRun> runs_;
   std::vector<Gains<float>> gains_;  ///< of the batches
-  AlignedNumbers<float> yields_;     ///< of every run's springs one over the resistance, kg; 0: no spring
+  LaneTable yields_;                 ///< of every run's springs one over the resistance, kg; 0: no spring
 };
 
 }  // namespace cloth

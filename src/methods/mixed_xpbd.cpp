@@ -91,7 +91,7 @@ public:
     begin_step(dynamics, substep, state);
     for (int s = 1; s <= substeps_; ++s)
     {
-      predict(dynamics, substep, state);
+      set_out(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       move_held(dynamics.pins(), state);
       if (records())
@@ -103,7 +103,7 @@ public:
       {
         report.limit_sweeps += shorten(s == substeps_);
       }
-      go_the_way(substep);
+      arrive();
     }
     end_step(dynamics.pins(), substep, state);
     report.force_evaluations = substeps_;
@@ -121,7 +121,7 @@ private:
         numbers.push_back(layout[node]);
       }
       for (AlignedVectors<float>* const vectors :
-           { &positions.singles(), &velocities.singles(), &accelerations.singles(), &ways, &inertias })
+           { &positions.singles(), &velocities.singles(), &ways, &inertias })
       {
         vectors->set_zero(layout.nodes());
       }
@@ -145,11 +145,11 @@ private:
     std::vector<int> numbers;  ///< of the model's nodes
     LaneSprings springs;
     LaneTensions limit;
+    double substep = 0.0;  ///< that springs and limit are prepared for, with these nodes held
     std::vector<int> held;
     SingleCopy positions;
-    SingleCopy velocities;
-    SingleCopy accelerations;
-    AlignedVectors<float> ways;      ///< since the substep's begin, m
+    SingleCopy velocities;           ///< at the step's begin and end
+    AlignedVectors<float> ways;      ///< of a substep, m
     AlignedVectors<float> inertias;  ///< inverse masses and remainders
     AlignedVectors<float> pulls;     ///< what springs gave to nodes in this step, kg m, where that is recorded
   };
@@ -158,11 +158,8 @@ private:
   {
     const ClothModel& model = dynamics.model();
     Sheet& sheet = *sheet_;
-    dynamics.external_forces_on_all(state.time, forces_);
-    dynamics.accelerations_of(forces_, forces_);
     sheet.positions.take(state.positions, state.positions.colwise().mean(), sheet.numbers);
     sheet.velocities.take(state.velocities, Eigen::RowVector3d::Zero(), sheet.numbers);
-    sheet.accelerations.take(forces_, Eigen::RowVector3d::Zero(), sheet.numbers);
     inverse_masses_.resize(model.nodes());
     dynamics.pins().find_inverse_masses(model.masses, inverse_masses_);
     const Air& air = dynamics.air();
@@ -175,44 +172,77 @@ private:
       inertias[0][number] = static_cast<float>(inverse_masses_[node]);
       inertias[1][number] = static_cast<float>(mass / (mass + damping * model.areas[node]));
     }
-    sheet.held.clear();
-    for (const Pin& pin : dynamics.pins().all())
-    {
-      sheet.held.insert(sheet.held.end(), pin.nodes.begin(), pin.nodes.end());
-    }
-    sheet.springs.prepare(model, compliance_, substep, sheet.inverse_masses());
-    if (max_strain_ > 0.0)
-    {
-      sheet.limit.prepare(sheet.inverse_masses(), sheet.held);
-    }
+    prepare(dynamics, substep);
+    find_ways(substep);
     if (records())
     {
       sheet.pulls.set_zero(sheet.layout.nodes());
     }
   }
 
-  /// The ways of nodes that nothing but gravity and air moves; held ones stay.
-  void predict(const Dynamics& dynamics, double h, ClothState& state)
+  void prepare(const Dynamics& dynamics, double substep)
+  {
+    std::vector<int> held;
+    for (const Pin& pin : dynamics.pins().all())
+    {
+      held.insert(held.end(), pin.nodes.begin(), pin.nodes.end());
+    }
+    Sheet& sheet = *sheet_;
+    if (substep != sheet.substep || held != sheet.held)
+    {
+      sheet.substep = substep;
+      sheet.held.swap(held);
+      sheet.springs.prepare(dynamics.model(), compliance_, substep, sheet.inverse_masses());
+      sheet.limit.prepare(sheet.inverse_masses(), sheet.held);
+    }
+  }
+
+  /// Of a substep of length h at the velocities; held nodes stay.
+  void find_ways(double h)
   {
     Sheet& sheet = *sheet_;
-    const bool is_coupled = dynamics.air().is_coupled(dynamics.model());
-    const auto step = static_cast<float>(h);
-    if (is_coupled)
+    const auto duration = static_cast<float>(h);
+    const float* const w = sheet.inverse_masses();
+    for_each_column([&](size_t d) {
+      return [=, way = sheet.ways.from(0)[d], v = sheet.velocities.singles().from(0)[d]](int i) {
+        way[i] = w[i] > 0.0F ? duration * v[i] : 0.0F;
+      };
+    });
+  }
+
+  /// Of nodes that are not held, from the ways of the last substep.
+  void find_velocities(double h)
+  {
+    Sheet& sheet = *sheet_;
+    const auto rate = static_cast<float>(1.0 / h);
+    const float* const w = sheet.inverse_masses();
+    for_each_column([&](size_t d) {
+      return [=, way = sheet.ways.from(0)[d], v = sheet.velocities.singles().from(0)[d]](int i) {
+        v[i] = w[i] > 0.0F ? rate * way[i] : v[i];
+      };
+    });
+  }
+
+  /// From the ways of the last substep to those that nothing but gravity and air changes; held nodes stay.
+  void set_out(const Dynamics& dynamics, double h, ClothState& state)
+  {
+    Sheet& sheet = *sheet_;
+    part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
+    if (dynamics.air().is_coupled(dynamics.model()))
     {
-      bring_up_to_date(state);
-      dynamics.external_forces_on_all(state.time, forces_);
-      dynamics.accelerations_of(forces_, forces_);
-      state.velocities += h * forces_;
+      bring_up_to_date(h, state);
+      state.velocities.rowwise() += h * dynamics.gravity().transpose();
       dynamics.air().damp_implicitly(dynamics.model(), state.time + h, state.positions, h, state.velocities);
       sheet.velocities.take(state.velocities, Eigen::RowVector3d::Zero(), sheet.numbers);
+      find_ways(h);
+      return;
     }
     const float* const remainders = sheet.remainders();
     const float* const w = sheet.inverse_masses();
-    const float gain = is_coupled ? 0.0F : step;
     for_each_column([&](size_t d) {
-      return [=, way = sheet.ways.from(0)[d], v = sheet.velocities.singles().from(0)[d],
-              a = sheet.accelerations.singles().from(0)[d]](int i) {
-        way[i] = w[i] > 0.0F ? step * (remainders[i] * (v[i] + gain * a[i])) : 0.0F;
+      return [=, way = sheet.ways.from(0)[d],
+              fall = static_cast<float>(h * h * dynamics.gravity()[static_cast<Eigen::Index>(d)])](int i) {
+        way[i] = w[i] > 0.0F ? remainders[i] * (way[i] + fall) : 0.0F;
       };
     });
   }
@@ -235,8 +265,9 @@ private:
     });
   }
 
-  void bring_up_to_date(ClothState& state)
+  void bring_up_to_date(double h, ClothState& state)
   {
+    find_velocities(h);
     sheet_->positions.add_gains_to(state.positions, sheet_->numbers);
     sheet_->velocities.add_gains_to(state.velocities, sheet_->numbers);
   }
@@ -246,7 +277,6 @@ private:
   {
     Sheet& sheet = *sheet_;
     const Columns<float> ways = sheet.ways.from(0);
-    const Columns<float> velocities = sheet.velocities.singles().from(0);
     held_before_.clear();
     for (const int node : sheet.held)
     {
@@ -260,7 +290,6 @@ private:
       for (int d = 0; d < 3; ++d)
       {
         ways[static_cast<size_t>(d)][number] = static_cast<float>(state.positions(node, d) - held_before_[k][d]);
-        velocities[static_cast<size_t>(d)][number] = static_cast<float>(state.velocities(node, d));
       }
     }
   }
@@ -292,17 +321,11 @@ private:
     return passes;
   }
 
-  void go_the_way(double h)
+  void arrive()
   {
     Sheet& sheet = *sheet_;
-    const auto rate = static_cast<float>(1.0 / h);
-    const float* const w = sheet.inverse_masses();
     for_each_column([&](size_t d) {
-      return [=, way = sheet.ways.from(0)[d], x = sheet.positions.singles().from(0)[d],
-              v = sheet.velocities.singles().from(0)[d]](int i) {
-        x[i] += way[i];
-        v[i] = w[i] > 0.0F ? rate * way[i] : v[i];
-      };
+      return [way = sheet.ways.from(0)[d], x = sheet.positions.singles().from(0)[d]](int i) { x[i] += way[i]; };
     });
   }
 
@@ -315,7 +338,7 @@ private:
 
   void end_step(const Pins& pins, double substep, ClothState& state)
   {
-    bring_up_to_date(state);
+    bring_up_to_date(substep, state);
     pins.impose(state.time, state.positions, state.velocities);
     for (const int node : records() ? sheet_->held : std::vector<int>())
     {

@@ -37,6 +37,7 @@ TEST_P(LaneLayoutOf, HasEverySpringOnceAndNoNodeTwiceInARun)
   for (const SpringRun& run : layout.runs(model.springs, 3))
   {
     EXPECT_EQ(run.node % 16, 0);
+    EXPECT_GE(std::abs(run.offset), 16) << "vectors of first and second ends share memory";
     std::set<int> nodes;
     for (int k = 0; k < run.n; ++k)
     {
