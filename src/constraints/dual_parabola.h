@@ -20,24 +20,6 @@ struct DualParabola
   /// pins alone, would be multiplied for ever were springs not thought to give way a little at this point.
   static constexpr double compliance = 1e-4;
 
-  /// Adds m |shift|^2 for so many nodes, a multiple of lanes_of<Scalar>.
-  void add_masses(const Scalar* inverse_masses, const Columns<const Scalar>& shifts, int nodes)
-  {
-    const Scalar* const x = shifts[0];
-    const Scalar* const y = shifts[1];
-    const Scalar* const z = shifts[2];
-    for (int begin = 0; begin < nodes; begin += lanes_of<Scalar>)
-    {
-#pragma GCC ivdep
-      for (int k = 0; k < lanes_of<Scalar>; ++k)
-      {
-        const int i = begin + k;
-        const Scalar square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
-        curvature[k] += square > Scalar(0) ? square / inverse_masses[i] : Scalar(0);
-      }
-    }
-  }
-
   /// By what tensions are best multiplied, at most `most`; 0 where they are of no use.
   double best_factor(double most) const
   {

@@ -13,135 +13,154 @@ namespace cloth
 namespace
 {
 
-/// Multiplies the tensions by `factor`, gives each spring the one that is right if all others' are, and moves its ends
-/// by the change. Returns whether any is taut.
+/// Multiplies the tensions by `factor`, gives each spring the one that is right if all others' are, and moves its ends,
+/// i and j in the blocks of nodes, by the change. Returns whether any is taut.
 template <bool fused>
-bool relax_run(const LaneEnds& ends, const Columns<float>& tensions, const float* reduced_masses, float longest,
-               float factor)
+bool relax_run(float* i, float* j, float* tensions, const float* reduced_masses, float longest, float factor)
 {
-  float* const p_x = tensions[0];
-  float* const p_y = tensions[1];
-  float* const p_z = tensions[2];
+  using namespace lane_node;
   const float squared = longest * longest;
   int taut = 0;
 #pragma GCC ivdep
   for (int k = 0; k < lanes; ++k)
   {
-    const float way_x_i = ends.way_x_i[k];
-    const float way_y_i = ends.way_y_i[k];
-    const float way_z_i = ends.way_z_i[k];
-    const float way_x_j = ends.way_x_j[k];
-    const float way_y_j = ends.way_y_j[k];
-    const float way_z_j = ends.way_z_j[k];
-    const float old_x = factor * p_x[k];
-    const float old_y = factor * p_y[k];
-    const float old_z = factor * p_z[k];
-    const float w = ends.w_i[k] + ends.w_j[k];
-    const float x = ends.x_j[k] - ends.x_i[k] + (way_x_j - way_x_i) + w * old_x;
-    const float y = ends.y_j[k] - ends.y_i[k] + (way_y_j - way_y_i) + w * old_y;
-    const float z = ends.z_j[k] - ends.z_i[k] + (way_z_j - way_z_i) + w * old_z;
-    const float square = x * x + y * y + z * z;
+    const float way_x_i = i[way_x + k];
+    const float way_y_i = i[way_y + k];
+    const float way_z_i = i[way_z + k];
+    const float way_x_j = j[way_x + k];
+    const float way_y_j = j[way_y + k];
+    const float way_z_j = j[way_z + k];
+    const float p_x = factor * tensions[lane_vector::x + k];
+    const float p_y = factor * tensions[lane_vector::y + k];
+    const float p_z = factor * tensions[lane_vector::z + k];
+    const float w_i = i[inverse_mass + k];
+    const float w_j = j[inverse_mass + k];
+    const float w = w_i + w_j;
+    const float d_x = j[x + k] - i[x + k] + (way_x_j - way_x_i) + w * p_x;
+    const float d_y = j[y + k] - i[y + k] + (way_y_j - way_y_i) + w * p_y;
+    const float d_z = j[z + k] - i[z + k] + (way_z_j - way_z_i) + w * p_z;
+    const float square = d_x * d_x + d_y * d_y + d_z * d_z;
     const bool is_taut = square > squared && reduced_masses[k] > 0.0F;
     const float part = is_taut ? (1.0F - longest * inverse_root<fused>(square)) * reduced_masses[k] : 0.0F;
-    const float change_x = part * x - old_x;
-    const float change_y = part * y - old_y;
-    const float change_z = part * z - old_z;
-    p_x[k] = part * x;
-    p_y[k] = part * y;
-    p_z[k] = part * z;
-    ends.way_x_i[k] = way_x_i + ends.w_i[k] * change_x;
-    ends.way_y_i[k] = way_y_i + ends.w_i[k] * change_y;
-    ends.way_z_i[k] = way_z_i + ends.w_i[k] * change_z;
-    ends.way_x_j[k] = way_x_j - ends.w_j[k] * change_x;
-    ends.way_y_j[k] = way_y_j - ends.w_j[k] * change_y;
-    ends.way_z_j[k] = way_z_j - ends.w_j[k] * change_z;
+    const float change_x = part * d_x - p_x;
+    const float change_y = part * d_y - p_y;
+    const float change_z = part * d_z - p_z;
+    tensions[lane_vector::x + k] = part * d_x;
+    tensions[lane_vector::y + k] = part * d_y;
+    tensions[lane_vector::z + k] = part * d_z;
+    i[way_x + k] = way_x_i + w_i * change_x;
+    i[way_y + k] = way_y_i + w_i * change_y;
+    i[way_z + k] = way_z_i + w_i * change_z;
+    j[way_x + k] = way_x_j - w_j * change_x;
+    j[way_y + k] = way_y_j - w_j * change_y;
+    j[way_z + k] = way_z_j - w_j * change_z;
     taut |= is_taut ? 1 : 0;
   }
   return taut != 0;
 }
 
-bool run_has_longer(const LaneEnds& ends, const float* reduced_masses, float longest)
+bool run_has_longer(const float* i, const float* j, const float* reduced_masses, float longest)
 {
+  using namespace lane_node;
   const float squared = longest * longest;
   int any = 0;
   for (int k = 0; k < lanes; ++k)
   {
-    const float x = ends.x_j[k] - ends.x_i[k] + (ends.way_x_j[k] - ends.way_x_i[k]);
-    const float y = ends.y_j[k] - ends.y_i[k] + (ends.way_y_j[k] - ends.way_y_i[k]);
-    const float z = ends.z_j[k] - ends.z_i[k] + (ends.way_z_j[k] - ends.way_z_i[k]);
-    any |= x * x + y * y + z * z > squared && reduced_masses[k] > 0.0F ? 1 : 0;
+    const float l_x = j[x + k] - i[x + k] + (j[way_x + k] - i[way_x + k]);
+    const float l_y = j[y + k] - i[y + k] + (j[way_y + k] - i[way_y + k]);
+    const float l_z = j[z + k] - i[z + k] + (j[way_z + k] - i[way_z + k]);
+    any |= l_x * l_x + l_y * l_y + l_z * l_z > squared && reduced_masses[k] > 0.0F ? 1 : 0;
   }
   return any != 0;
 }
 
-/// `shifted` has the shifts for ways.
 template <bool fused>
-void add_run_shifts(const LaneEnds& ends, const Columns<float>& tensions, float longest, const LaneEnds& shifted,
-                    DualParabola<float>& parabola)
+void add_run_shifts(const float* i, const float* j, const float* tensions, float longest, float* shift_i,
+                    float* shift_j, DualParabola<float>& parabola)
 {
-  const float* const p_x = tensions[0];
-  const float* const p_y = tensions[1];
-  const float* const p_z = tensions[2];
+  using namespace lane_node;
 #pragma GCC ivdep
   for (int k = 0; k < lanes; ++k)
   {
-    const float x = ends.x_j[k] - ends.x_i[k] + (ends.way_x_j[k] - ends.way_x_i[k]);
-    const float y = ends.y_j[k] - ends.y_i[k] + (ends.way_y_j[k] - ends.way_y_i[k]);
-    const float z = ends.z_j[k] - ends.z_i[k] + (ends.way_z_j[k] - ends.way_z_i[k]);
-    const float square = p_x[k] * p_x[k] + p_y[k] * p_y[k] + p_z[k] * p_z[k];
-    parabola.rise[k] += p_x[k] * x + p_y[k] * y + p_z[k] * z - longest * square * inverse_root<fused>(square);
-    parabola.curvature[k] += float(DualParabola<float>::compliance) * (ends.w_i[k] + ends.w_j[k]) * square;
-    const float x_i = shifted.way_x_i[k] + ends.w_i[k] * p_x[k];
-    const float y_i = shifted.way_y_i[k] + ends.w_i[k] * p_y[k];
-    const float z_i = shifted.way_z_i[k] + ends.w_i[k] * p_z[k];
-    const float x_j = shifted.way_x_j[k] - ends.w_j[k] * p_x[k];
-    const float y_j = shifted.way_y_j[k] - ends.w_j[k] * p_y[k];
-    const float z_j = shifted.way_z_j[k] - ends.w_j[k] * p_z[k];
-    shifted.way_x_i[k] = x_i;
-    shifted.way_y_i[k] = y_i;
-    shifted.way_z_i[k] = z_i;
-    shifted.way_x_j[k] = x_j;
-    shifted.way_y_j[k] = y_j;
-    shifted.way_z_j[k] = z_j;
+    const float l_x = j[x + k] - i[x + k] + (j[way_x + k] - i[way_x + k]);
+    const float l_y = j[y + k] - i[y + k] + (j[way_y + k] - i[way_y + k]);
+    const float l_z = j[z + k] - i[z + k] + (j[way_z + k] - i[way_z + k]);
+    const float p_x = tensions[lane_vector::x + k];
+    const float p_y = tensions[lane_vector::y + k];
+    const float p_z = tensions[lane_vector::z + k];
+    const float w_i = i[inverse_mass + k];
+    const float w_j = j[inverse_mass + k];
+    const float square = p_x * p_x + p_y * p_y + p_z * p_z;
+    parabola.rise[k] += p_x * l_x + p_y * l_y + p_z * l_z - longest * square * inverse_root<fused>(square);
+    parabola.curvature[k] += float(DualParabola<float>::compliance) * (w_i + w_j) * square;
+    const float x_i = shift_i[lane_vector::x + k] + w_i * p_x;
+    const float y_i = shift_i[lane_vector::y + k] + w_i * p_y;
+    const float z_i = shift_i[lane_vector::z + k] + w_i * p_z;
+    const float x_j = shift_j[lane_vector::x + k] - w_j * p_x;
+    const float y_j = shift_j[lane_vector::y + k] - w_j * p_y;
+    const float z_j = shift_j[lane_vector::z + k] - w_j * p_z;
+    shift_i[lane_vector::x + k] = x_i;
+    shift_i[lane_vector::y + k] = y_i;
+    shift_i[lane_vector::z + k] = z_i;
+    shift_j[lane_vector::x + k] = x_j;
+    shift_j[lane_vector::y + k] = y_j;
+    shift_j[lane_vector::z + k] = z_j;
+  }
+}
+
+void add_masses(const float* nodes, const float* shifts, DualParabola<float>& parabola)
+{
+#pragma GCC ivdep
+  for (int k = 0; k < lanes; ++k)
+  {
+    const float x = shifts[lane_vector::x + k];
+    const float y = shifts[lane_vector::y + k];
+    const float z = shifts[lane_vector::z + k];
+    const float square = x * x + y * y + z * z;
+    parabola.curvature[k] += square > 0.0F ? square / nodes[lane_node::inverse_mass + k] : 0.0F;
+  }
+}
+
+void shift(float* nodes, const float* shifts, float factor)
+{
+#pragma GCC ivdep
+  for (int k = 0; k < lanes; ++k)
+  {
+    nodes[lane_node::way_x + k] += factor * shifts[lane_vector::x + k];
+    nodes[lane_node::way_y + k] += factor * shifts[lane_vector::y + k];
+    nodes[lane_node::way_z + k] += factor * shifts[lane_vector::z + k];
   }
 }
 
 }  // namespace
 
-LaneTensions::LaneTensions(const ClothModel& model, const LaneLayout& layout) : tethers_(model, layout)
+LaneTensions::LaneTensions(const ClothModel& model, const LaneLayout& layout)
+  : tethers_(model, layout), vectors_(layout.nodes() / lanes)
 {
   const std::vector<SpringBatch> batches = limited_batches(model);
   for (const SpringBatch& batch : batches)
   {
     rest_lengths_.push_back(static_cast<float>(batch.rest_length));
   }
-  int first = 0;
   for (const SpringRun& run : layout.runs(batches, 1))
   {
-    runs_.push_back({ run, first });
-    first += lanes;
+    runs_.push_back({ LaneRun(run) });
   }
-  tensions_.set_zero(first);
+  tensions_.set_zero(static_cast<int>(runs_.size()) * lanes);
   shifts_.set_zero(layout.nodes());
 }
 
-void LaneTensions::prepare(const float* inverse_masses, const std::vector<int>& held)
+void LaneTensions::prepare(const LaneNodes& nodes, const std::vector<int>& held)
 {
   tethers_.hold(held);
   reduced_masses_.clear();
   for (const Run& run : runs_)
   {
-    LaneTable::Row masses{};
-    for (int k = 0; k < run.springs.n; ++k)
-    {
-      const float w = inverse_masses[run.springs.node + k] + inverse_masses[run.springs.node + run.springs.offset + k];
-      masses[static_cast<size_t>(k)] = w > 0.0F ? 1.0F / w : 0.0F;
-    }
-    reduced_masses_.add(masses);
+    reduced_masses_.add(numbers_of_springs(nodes, run.springs, [](float w) { return 1.0F / w; }));
   }
 }
 
-int LaneTensions::follow(const LaneNodes& nodes, double max_strain, int passes)
+int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes)
 {
   const float target = stretch_held(max_strain);
   const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_between));
@@ -158,7 +177,7 @@ int LaneTensions::follow(const LaneNodes& nodes, double max_strain, int passes)
   return done;
 }
 
-int LaneTensions::finish(const LaneNodes& nodes, double max_strain, int passes)
+int LaneTensions::finish(LaneNodes& nodes, double max_strain, int passes)
 {
   const float target = stretch_held(max_strain);
   const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_at_end));
@@ -178,63 +197,58 @@ float LaneTensions::stretch_held(double max_strain) const
   return static_cast<float>(1.0 + max_strain * (1.0 - margin_));
 }
 
-float LaneTensions::pull_as_before(const LaneNodes& nodes, float stretch)
+float LaneTensions::pull_as_before(LaneNodes& nodes, float stretch)
 {
-  const Columns<float> shifts = shifts_.from(0);
   DualParabola<float> parabola;
-  double factor = 0.0;
+  float factor = 0.0F;
+  std::fill_n(shifts_.data(), vectors_ * LaneVectors::size, 0.0F);
+  tethers_.add_shifts(nodes, stretch, shifts_, parabola);
   in_widest_vectors([&](auto arithmetic) {
-    for (float* const column : shifts)
+    float* const at = nodes.data();
+    float* const shifts = shifts_.data();
+    for (size_t r = 0; r < runs_.size(); ++r)
     {
-      std::fill_n(column, nodes.nodes, 0.0F);
-    }
-    const LaneNodes shifted{ nodes.inverse_masses, nodes.positions, shifts, nodes.nodes };
-    tethers_.add_shifts(nodes, stretch, shifts, parabola);
-    for (const Run& run : runs_)
-    {
-      if (run.is_taut)
+      const LaneRun& springs = runs_[r].springs;
+      if (runs_[r].is_taut)
       {
-        add_run_shifts<arithmetic.has_fused_multiply_add>(LaneEnds(nodes, run.springs), tensions_.from(run.first),
-                                                          stretch * rest_lengths_[run.springs.batch],
-                                                          LaneEnds(shifted, run.springs), parabola);
+        add_run_shifts<arithmetic.has_fused_multiply_add>(
+            at + LaneNodes::place_of(springs.i), at + LaneNodes::place_of(springs.j), tensions_of(r),
+            stretch * rest_lengths_[springs.batch], shifts + LaneVectors::place_of(springs.i),
+            shifts + LaneVectors::place_of(springs.j), parabola);
       }
     }
-    parabola.add_masses(nodes.inverse_masses, { shifts[0], shifts[1], shifts[2] }, nodes.nodes);
-    factor = parabola.best_factor(most_growth);
-    const auto times = static_cast<float>(factor);
-    for (size_t d = 0; d < 3; ++d)
+    for (int v = 0; v < vectors_; ++v)
     {
-      float* const way = nodes.ways[d];
-      const float* const shift = shifts[d];
-#pragma GCC ivdep
-      for (int i = 0; i < nodes.nodes; ++i)
-      {
-        way[i] += times * shift[i];
-      }
+      add_masses(at + v * LaneNodes::size, shifts + v * LaneVectors::size, parabola);
+    }
+    factor = static_cast<float>(parabola.best_factor(most_growth));
+    for (int v = 0; v < vectors_; ++v)
+    {
+      shift(at + v * LaneNodes::size, shifts + v * LaneVectors::size, factor);
     }
   });
-  return static_cast<float>(factor);
+  return factor;
 }
 
-bool LaneTensions::relax(const LaneNodes& nodes, float stretch, float factor)
+bool LaneTensions::relax(LaneNodes& nodes, float stretch, float factor)
 {
   ++part_calls()[Part::strain_watch];
   tethers_.relax(nodes, stretch, factor);
   backwards_ = !backwards_;
   bool is_taut = false;
   in_widest_vectors([&](auto arithmetic) {
-    const size_t n = runs_.size();
-    for (size_t r = 0; r < n; ++r)
+    float* const at = nodes.data();
+    for (size_t done = 0; done < runs_.size(); ++done)
     {
-      const size_t number = backwards_ ? n - 1 - r : r;
-      Run& run = runs_[number];
-      const LaneEnds ends(nodes, run.springs);
-      const float* const reduced_masses = reduced_masses_[number];
+      const size_t r = backwards_ ? runs_.size() - 1 - done : done;
+      Run& run = runs_[r];
+      float* const i = at + LaneNodes::place_of(run.springs.i);
+      float* const j = at + LaneNodes::place_of(run.springs.j);
       const float longest = stretch * rest_lengths_[run.springs.batch];
-      if (run.is_taut || (backwards_ && run_has_longer(ends, reduced_masses, longest)))
+      if (run.is_taut || (backwards_ && run_has_longer(i, j, reduced_masses_[r], longest)))
       {
-        run.is_taut = relax_run<arithmetic.has_fused_multiply_add>(ends, tensions_.from(run.first), reduced_masses,
-                                                                   longest, factor);
+        run.is_taut =
+            relax_run<arithmetic.has_fused_multiply_add>(i, j, tensions_of(r), reduced_masses_[r], longest, factor);
         is_taut = true;
       }
     }
@@ -252,26 +266,28 @@ bool LaneTensions::has_longer(const LaneNodes& nodes, float stretch, Springs spr
     {
       const Run& run = runs_[r];
       found = (springs == Springs::all || run.is_taut) &&
-              run_has_longer(LaneEnds(nodes, run.springs), reduced_masses_[r],
+              run_has_longer(nodes.data() + LaneNodes::place_of(run.springs.i),
+                             nodes.data() + LaneNodes::place_of(run.springs.j), reduced_masses_[r],
                              stretch * rest_lengths_[run.springs.batch]);
     }
   });
   return found;
 }
 
-void LaneTensions::add_tensions_to(const Columns<float>& pulls) const
+void LaneTensions::add_tensions_to(LaneVectors& pulls) const
 {
   tethers_.add_tensions_to(pulls);
-  for (const Run& run : runs_)
+  for (size_t r = 0; r < runs_.size(); ++r)
   {
-    const Columns<const float> tensions = tensions_.from(run.first);
-    for (int k = 0; run.is_taut && k < run.springs.n; ++k)
+    const LaneRun& springs = runs_[r].springs;
+    float* const pull_i = pulls.data() + LaneVectors::place_of(springs.i);
+    float* const pull_j = pulls.data() + LaneVectors::place_of(springs.j);
+    for (int k = 0; runs_[r].is_taut && k < springs.n; ++k)
     {
-      const int node = run.springs.node + k;
-      for (size_t d = 0; d < 3; ++d)
+      for (const int d : { lane_vector::x, lane_vector::y, lane_vector::z })
       {
-        pulls[d][node] += tensions[d][k];
-        pulls[d][node + run.springs.offset] -= tensions[d][k];
+        pull_i[d + k] += tensions_of(r)[d + k];
+        pull_j[d + k] -= tensions_of(r)[d + k];
       }
     }
   }

@@ -5,7 +5,6 @@
 #include "cloth_sim/constraints/strain_limit.h"
 #include "cloth_sim/model/cloth_model.h"
 
-#include "../model/aligned_vectors.h"
 #include "../model/lane_nodes.h"
 #include "../model/lane_table.h"
 #include "../model/spring_layout.h"
@@ -24,18 +23,18 @@ class LaneTensions
 public:
   LaneTensions(const ClothModel& model, const LaneLayout& layout);
 
-  /// To be called whenever masses (1/kg) have changed. `held`: numbers of nodes in the model.
-  void prepare(const float* inverse_masses, const std::vector<int>& held);
+  /// To be called whenever the nodes' masses have changed. `held`: numbers of nodes in the model.
+  void prepare(const LaneNodes& nodes, const std::vector<int>& held);
 
   /// To be called in every substep, after the springs have had their say: one pass, and more where the strain is far
   /// above max_strain, but at most `passes`. Returns how many.
-  int follow(const LaneNodes& nodes, double max_strain, int passes);
+  int follow(LaneNodes& nodes, double max_strain, int passes);
 
   /// To be called once more in the last substep of a step: as many passes as max_strain takes, at most `passes`.
-  int finish(const LaneNodes& nodes, double max_strain, int passes);
+  int finish(LaneNodes& nodes, double max_strain, int passes);
 
   /// Adds the pull of the tensions on every node, kg m.
-  void add_tensions_to(const Columns<float>& pulls) const;
+  void add_tensions_to(LaneVectors& pulls) const;
 
 private:
   /// Relative to max_strain. The margin is the first to begin with, and anew when the sheet falls behind.
@@ -59,8 +58,7 @@ private:
 
   struct Run
   {
-    SpringRun springs;
-    int first;             ///< of its tensions
+    LaneRun springs;
     bool is_taut = false;  ///< some spring has a tension
   };
 
@@ -68,21 +66,30 @@ private:
   float stretch_held(double max_strain) const;
   /// Pulls with the tensions of the last substep times the factor that is best for them, and returns it: tensions are
   /// multiplied by it in the pass that follows.
-  float pull_as_before(const LaneNodes& nodes, float stretch);
+  float pull_as_before(LaneNodes& nodes, float stretch);
   /// A pass. Slack springs are looked at in every second one. Returns whether any is taut.
-  bool relax(const LaneNodes& nodes, float stretch, float factor);
+  bool relax(LaneNodes& nodes, float stretch, float factor);
   bool has_longer(const LaneNodes& nodes, float stretch, Springs springs) const;
+  float* tensions_of(size_t run)
+  {
+    return tensions_.data() + run * LaneVectors::size;
+  }
+  const float* tensions_of(size_t run) const
+  {
+    return tensions_.data() + run * LaneVectors::size;
+  }
 
   std::vector<float> rest_lengths_;  ///< of the batches, m
   std::vector<Run> runs_;
   LaneTethers tethers_;
+  int vectors_;  ///< of nodes
   double margin_ = first_margin;
   bool falls_behind_ = false;  ///< one pass a substep was not enough
   bool backwards_ = false;     ///< the last pass
   int follows_ = 0;
-  AlignedVectors<float> tensions_;  ///< kg m
-  LaneTable reduced_masses_;        ///< of every run's springs 1/(1/m_i + 1/m_j), kg; 0: none, or held at both ends
-  AlignedVectors<float> shifts_;    ///< what the tensions of the last substep ask for, m
+  LaneVectors tensions_;      ///< of every run, kg m
+  LaneTable reduced_masses_;  ///< of every run's springs 1/(1/m_i + 1/m_j), kg; 0: none, or held at both ends
+  LaneVectors shifts_;        ///< what the tensions of the last substep ask for, m
 };
 
 }  // namespace cloth

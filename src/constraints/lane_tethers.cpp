@@ -8,113 +8,89 @@ namespace cloth
 namespace
 {
 
-/// The tethers of a vector of nodes.
-struct LaneTethersOf
+struct Point
 {
-  LaneTethersOf(const LaneNodes& nodes, int first, int anchor)
-    : w(nodes.inverse_masses + first)
-    , x(nodes.positions[0] + first)
-    , y(nodes.positions[1] + first)
-    , z(nodes.positions[2] + first)
-    , way_x(nodes.ways[0] + first)
-    , way_y(nodes.ways[1] + first)
-    , way_z(nodes.ways[2] + first)
-    , anchor_x(nodes.positions[0][anchor] + nodes.ways[0][anchor])
-    , anchor_y(nodes.positions[1][anchor] + nodes.ways[1][anchor])
-    , anchor_z(nodes.positions[2][anchor] + nodes.ways[2][anchor])
-  {
-  }
-
-  const float* w;
-  const float* x;
-  const float* y;
-  const float* z;
-  float* way_x;
-  float* way_y;
-  float* way_z;
-  float anchor_x;
-  float anchor_y;
-  float anchor_z;
+  float x;
+  float y;
+  float z;
 };
 
-bool has_taut(const LaneTethersOf& tethers, const float* lengths, float stretch)
+Point place_of(const LaneNodes& nodes, int node)
 {
+  using namespace lane_node;
+  const float* const at = nodes.data() + LaneNodes::place_of(node);
+  return { at[x] + at[way_x], at[y] + at[way_y], at[z] + at[way_z] };
+}
+
+bool has_taut(const float* nodes, const Point& anchor, const float* lengths, float stretch)
+{
+  using namespace lane_node;
   int taut = 0;
   for (int k = 0; k < lanes; ++k)
   {
     const float longest = stretch * lengths[k];
-    const float x = tethers.anchor_x - tethers.x[k] - tethers.way_x[k];
-    const float y = tethers.anchor_y - tethers.y[k] - tethers.way_y[k];
-    const float z = tethers.anchor_z - tethers.z[k] - tethers.way_z[k];
-    taut |= longest > 0.0F && x * x + y * y + z * z > longest * longest ? 1 : 0;
+    const float l_x = anchor.x - nodes[x + k] - nodes[way_x + k];
+    const float l_y = anchor.y - nodes[y + k] - nodes[way_y + k];
+    const float l_z = anchor.z - nodes[z + k] - nodes[way_z + k];
+    taut |= longest > 0.0F && l_x * l_x + l_y * l_y + l_z * l_z > longest * longest ? 1 : 0;
   }
   return taut != 0;
 }
 
 /// Returns whether any is taut.
 template <bool fused>
-bool relax_some(const LaneTethersOf& tethers, const float* lengths, float stretch, const Columns<float>& tensions,
-                float factor)
+bool relax_some(float* nodes, const Point& anchor, const float* lengths, float stretch, float* tensions, float factor)
 {
-  float* const p_x = tensions[0];
-  float* const p_y = tensions[1];
-  float* const p_z = tensions[2];
+  using namespace lane_node;
   int taut = 0;
 #pragma GCC ivdep
   for (int k = 0; k < lanes; ++k)
   {
-    const float w = tethers.w[k];
+    const float w = nodes[inverse_mass + k];
     const float longest = stretch * lengths[k];
-    const float old_x = factor * p_x[k];
-    const float old_y = factor * p_y[k];
-    const float old_z = factor * p_z[k];
-    const float x = tethers.anchor_x - tethers.x[k] - tethers.way_x[k] + w * old_x;
-    const float y = tethers.anchor_y - tethers.y[k] - tethers.way_y[k] + w * old_y;
-    const float z = tethers.anchor_z - tethers.z[k] - tethers.way_z[k] + w * old_z;
-    const float square = x * x + y * y + z * z;
+    const float p_x = factor * tensions[lane_vector::x + k];
+    const float p_y = factor * tensions[lane_vector::y + k];
+    const float p_z = factor * tensions[lane_vector::z + k];
+    const float l_x = anchor.x - nodes[x + k] - nodes[way_x + k] + w * p_x;
+    const float l_y = anchor.y - nodes[y + k] - nodes[way_y + k] + w * p_y;
+    const float l_z = anchor.z - nodes[z + k] - nodes[way_z + k] + w * p_z;
+    const float square = l_x * l_x + l_y * l_y + l_z * l_z;
     const bool is_taut = longest > 0.0F && square > longest * longest && w > 0.0F;
     const float part = is_taut ? (1.0F - longest * inverse_root<fused>(square)) / w : 0.0F;
-    tethers.way_x[k] += w * (part * x - old_x);
-    tethers.way_y[k] += w * (part * y - old_y);
-    tethers.way_z[k] += w * (part * z - old_z);
-    p_x[k] = part * x;
-    p_y[k] = part * y;
-    p_z[k] = part * z;
+    nodes[way_x + k] += w * (part * l_x - p_x);
+    nodes[way_y + k] += w * (part * l_y - p_y);
+    nodes[way_z + k] += w * (part * l_z - p_z);
+    tensions[lane_vector::x + k] = part * l_x;
+    tensions[lane_vector::y + k] = part * l_y;
+    tensions[lane_vector::z + k] = part * l_z;
     taut |= is_taut ? 1 : 0;
   }
   return taut != 0;
 }
 
 template <bool fused>
-void add_some_shifts(const LaneTethersOf& tethers, const float* lengths, float stretch,
-                     const Columns<const float>& tensions, const Columns<float>& shifts, DualParabola<float>& parabola)
+void add_some_shifts(const float* nodes, const Point& anchor, const float* lengths, float stretch,
+                     const float* tensions, float* shifts, DualParabola<float>& parabola)
 {
-  const float* const p_x = tensions[0];
-  const float* const p_y = tensions[1];
-  const float* const p_z = tensions[2];
-  float* const shift_x = shifts[0];
-  float* const shift_y = shifts[1];
-  float* const shift_z = shifts[2];
+  using namespace lane_node;
 #pragma GCC ivdep
   for (int k = 0; k < lanes; ++k)
   {
-    const float w = tethers.w[k];
-    const float x = tethers.anchor_x - tethers.x[k] - tethers.way_x[k];
-    const float y = tethers.anchor_y - tethers.y[k] - tethers.way_y[k];
-    const float z = tethers.anchor_z - tethers.z[k] - tethers.way_z[k];
-    const float square = p_x[k] * p_x[k] + p_y[k] * p_y[k] + p_z[k] * p_z[k];
+    const float w = nodes[inverse_mass + k];
+    const float p_x = tensions[lane_vector::x + k];
+    const float p_y = tensions[lane_vector::y + k];
+    const float p_z = tensions[lane_vector::z + k];
+    const float l_x = anchor.x - nodes[x + k] - nodes[way_x + k];
+    const float l_y = anchor.y - nodes[y + k] - nodes[way_y + k];
+    const float l_z = anchor.z - nodes[z + k] - nodes[way_z + k];
+    const float square = p_x * p_x + p_y * p_y + p_z * p_z;
     parabola.rise[k] +=
-        p_x[k] * x + p_y[k] * y + p_z[k] * z - stretch * lengths[k] * square * inverse_root<fused>(square);
+        p_x * l_x + p_y * l_y + p_z * l_z - stretch * lengths[k] * square * inverse_root<fused>(square);
     parabola.curvature[k] += float(DualParabola<float>::compliance) * w * square;
-    shift_x[k] += w * p_x[k];
-    shift_y[k] += w * p_y[k];
-    shift_z[k] += w * p_z[k];
+    shifts[lane_vector::x + k] += w * p_x;
+    shifts[lane_vector::y + k] += w * p_y;
+    shifts[lane_vector::z + k] += w * p_z;
   }
-}
-
-Columns<float> moved_on(const Columns<float>& columns, int by)
-{
-  return { columns[0] + by, columns[1] + by, columns[2] + by };
 }
 
 }  // namespace
@@ -154,59 +130,62 @@ void LaneTethers::hold(const std::vector<int>& held)
   }
 }
 
-void LaneTethers::add_shifts(const LaneNodes& nodes, float stretch, const Columns<float>& shifts,
+void LaneTethers::add_shifts(const LaneNodes& nodes, float stretch, LaneVectors& shifts,
                              DualParabola<float>& parabola) const
 {
   in_widest_vectors([&](auto arithmetic) {
     for (const Tether& tether : tethers_)
     {
-      for (int node = 0; node < nodes.nodes; node += lanes)
+      const Point anchor = place_of(nodes, tether.node);
+      for (int v = 0; v < layout_.nodes() / lanes; ++v)
       {
-        if (tether.is_taut[static_cast<size_t>(node / lanes)])
+        if (tether.is_taut[static_cast<size_t>(v)])
         {
-          add_some_shifts<arithmetic.has_fused_multiply_add>(LaneTethersOf(nodes, node, tether.node),
-                                                             tether.lengths.data() + node, stretch,
-                                                             tether.tensions.from(node), moved_on(shifts, node), parabola);
+          add_some_shifts<arithmetic.has_fused_multiply_add>(
+              nodes.data() + v * LaneNodes::size, anchor, tether.lengths.data() + v * lanes, stretch,
+              tether.tensions.data() + v * LaneVectors::size, shifts.data() + v * LaneVectors::size, parabola);
         }
       }
     }
   });
 }
 
-void LaneTethers::relax(const LaneNodes& nodes, float stretch, float factor)
+void LaneTethers::relax(LaneNodes& nodes, float stretch, float factor)
 {
   const bool looks_at_slack = passes_++ % passes_between_looks == 0;
   in_widest_vectors([&](auto arithmetic) {
     for (Tether& tether : tethers_)
     {
-      for (int node = 0; node < nodes.nodes; node += lanes)
+      const Point anchor = place_of(nodes, tether.node);
+      for (int v = 0; v < layout_.nodes() / lanes; ++v)
       {
-        char& is_taut = tether.is_taut[static_cast<size_t>(node / lanes)];
-        const LaneTethersOf tethers(nodes, node, tether.node);
-        const float* const lengths = tether.lengths.data() + node;
-        if (is_taut || (looks_at_slack && has_taut(tethers, lengths, stretch)))
+        char& is_taut = tether.is_taut[static_cast<size_t>(v)];
+        float* const some = nodes.data() + v * LaneNodes::size;
+        const float* const lengths = tether.lengths.data() + v * lanes;
+        if (is_taut || (looks_at_slack && has_taut(some, anchor, lengths, stretch)))
         {
-          is_taut = relax_some<arithmetic.has_fused_multiply_add>(tethers, lengths, stretch,
-                                                                  tether.tensions.from(node), factor)
-                        ? 1
-                        : 0;
+          const bool stays_taut = relax_some<arithmetic.has_fused_multiply_add>(
+              some, anchor, lengths, stretch, tether.tensions.data() + v * LaneVectors::size, factor);
+          is_taut = stays_taut ? 1 : 0;
         }
       }
     }
   });
 }
 
-void LaneTethers::add_tensions_to(const Columns<float>& pulls) const
+void LaneTethers::add_tensions_to(LaneVectors& pulls) const
 {
   for (const Tether& tether : tethers_)
   {
-    for (size_t d = 0; d < 3; ++d)
+    float* const on_anchor = pulls.data() + LaneVectors::place_of(tether.node);
+    for (int node = 0; node < layout_.nodes(); ++node)
     {
-      const float* const tensions = tether.tensions.from(0)[d];
-      for (int node = 0; node < layout_.nodes(); ++node)
+      const float* const tension = tether.tensions.data() + LaneVectors::place_of(node);
+      float* const pull = pulls.data() + LaneVectors::place_of(node);
+      for (const int d : { lane_vector::x, lane_vector::y, lane_vector::z })
       {
-        pulls[d][node] += tensions[node];
-        pulls[d][tether.node] -= tensions[node];
+        pull[d] += tension[d];
+        on_anchor[d] -= tension[d];
       }
     }
   }

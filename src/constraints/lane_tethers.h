@@ -4,7 +4,6 @@
 
 #include "cloth_sim/model/cloth_model.h"
 
-#include "../model/aligned_vectors.h"
 #include "../model/lane_nodes.h"
 #include "../model/spring_layout.h"
 #include "dual_parabola.h"
@@ -28,14 +27,13 @@ public:
 
   /// Adds what the tensions ask for to the shifts of nodes and to the parabola. `stretch`: how long tethers may be, in
   /// lengths at rest.
-  void add_shifts(const LaneNodes& nodes, float stretch, const Columns<float>& shifts,
-                  DualParabola<float>& parabola) const;
+  void add_shifts(const LaneNodes& nodes, float stretch, LaneVectors& shifts, DualParabola<float>& parabola) const;
 
   /// A pass. Tensions are multiplied by `factor` before.
-  void relax(const LaneNodes& nodes, float stretch, float factor);
+  void relax(LaneNodes& nodes, float stretch, float factor);
 
   /// Adds the pull of the tensions on both ends, kg m.
-  void add_tensions_to(const Columns<float>& pulls) const;
+  void add_tensions_to(LaneVectors& pulls) const;
 
 private:
   static constexpr size_t most = 4;
@@ -43,9 +41,9 @@ private:
 
   struct Tether
   {
-    int node;                      ///< the held one
+    int node;                       ///< the held one
     AlignedNumbers<float> lengths;  ///< from all others, m; 0: none
-    AlignedVectors<float> tensions;
+    LaneVectors tensions;
     std::vector<char> is_taut;  ///< of every vector of nodes: some have a tension
   };
 

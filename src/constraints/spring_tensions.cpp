@@ -117,6 +117,24 @@ bool has_longer(const SpringRow& row, double longest)
   return any != 0;
 }
 
+/// Adds m |shift|^2 to the parabola's curvature. There is room for a whole number of vectors.
+void add_masses(const double* inverse_masses, const Columns<double>& shifts, int nodes, DualParabola<double>& parabola)
+{
+  const double* const x = shifts[0];
+  const double* const y = shifts[1];
+  const double* const z = shifts[2];
+  for (int begin = 0; begin < nodes; begin += lanes_of<double>)
+  {
+#pragma GCC ivdep
+    for (int k = 0; k < lanes_of<double>; ++k)
+    {
+      const int i = begin + k;
+      const double square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+      parabola.curvature[k] += square > 0.0 ? square / inverse_masses[i] : 0.0;
+    }
+  }
+}
+
 SpringRow row_of(const SpringRun& springs, const double* inverse_masses, const Columns<double>& columns)
 {
   return { inverse_masses, columns, springs.node, springs.offset, springs.n };
@@ -231,7 +249,7 @@ bool SpringTensions::pull_as_before(const double* inverse_masses, const Columns<
                           row_of(run.springs, inverse_masses, shifts), parabola);
       }
     }
-    parabola.add_masses(inverse_masses, { shifts[0], shifts[1], shifts[2] }, (nodes_ + 7) / 8 * 8);
+    add_masses(inverse_masses, shifts, nodes_, parabola);
     factor = parabola.best_factor(reached_ ? most_growth : most_growth_of_a_failure);
     for (size_t d = 0; d < 3; ++d)
     {

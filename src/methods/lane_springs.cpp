@@ -1,6 +1,5 @@
 #include "lane_springs.h"
 
-#include "cloth_sim/model/part_calls.h"
 #include "cloth_sim/model/wide_vectors.h"
 
 namespace cloth
@@ -8,50 +7,52 @@ namespace cloth
 namespace
 {
 
+/// i and j: the ends in the blocks of nodes, pull_i and pull_j in those of what they are given.
 template <bool fused, bool records>
-void correct_run(const LaneEnds& ends, const Gains<float>& gains, const float* yields, const LaneEnds& pulled)
+void correct_run(float* i, float* j, const Gains<float>& gains, const float* yields, float* pull_i, float* pull_j)
 {
+  using namespace lane_node;
   const float rest_length = gains.rest_length;
   const float damping = gains.damping;
 #pragma GCC ivdep
   for (int k = 0; k < lanes; ++k)
   {
-    const float way_x_i = ends.way_x_i[k];
-    const float way_y_i = ends.way_y_i[k];
-    const float way_z_i = ends.way_z_i[k];
-    const float way_x_j = ends.way_x_j[k];
-    const float way_y_j = ends.way_y_j[k];
-    const float way_z_j = ends.way_z_j[k];
-    const float way_x = way_x_j - way_x_i;
-    const float way_y = way_y_j - way_y_i;
-    const float way_z = way_z_j - way_z_i;
-    const float x = ends.x_j[k] - ends.x_i[k] + way_x;
-    const float y = ends.y_j[k] - ends.y_i[k] + way_y;
-    const float z = ends.z_j[k] - ends.z_i[k] + way_z;
-    const float part = yields[k] * correction<fused>(x * x + y * y + z * z, x * way_x + y * way_y + z * way_z,
-                                                     rest_length, damping);
-    const float part_i = ends.w_i[k] * part;
-    const float part_j = ends.w_j[k] * part;
-    ends.way_x_i[k] = way_x_i + part_i * x;
-    ends.way_y_i[k] = way_y_i + part_i * y;
-    ends.way_z_i[k] = way_z_i + part_i * z;
-    ends.way_x_j[k] = way_x_j - part_j * x;
-    ends.way_y_j[k] = way_y_j - part_j * y;
-    ends.way_z_j[k] = way_z_j - part_j * z;
+    const float way_x_i = i[way_x + k];
+    const float way_y_i = i[way_y + k];
+    const float way_z_i = i[way_z + k];
+    const float way_x_j = j[way_x + k];
+    const float way_y_j = j[way_y + k];
+    const float way_z_j = j[way_z + k];
+    const float d_x = way_x_j - way_x_i;
+    const float d_y = way_y_j - way_y_i;
+    const float d_z = way_z_j - way_z_i;
+    const float l_x = j[x + k] - i[x + k] + d_x;
+    const float l_y = j[y + k] - i[y + k] + d_y;
+    const float l_z = j[z + k] - i[z + k] + d_z;
+    const float part = yields[k] * correction<fused>(l_x * l_x + l_y * l_y + l_z * l_z,
+                                                     l_x * d_x + l_y * d_y + l_z * d_z, rest_length, damping);
+    const float part_i = i[inverse_mass + k] * part;
+    const float part_j = j[inverse_mass + k] * part;
+    i[way_x + k] = way_x_i + part_i * l_x;
+    i[way_y + k] = way_y_i + part_i * l_y;
+    i[way_z + k] = way_z_i + part_i * l_z;
+    j[way_x + k] = way_x_j - part_j * l_x;
+    j[way_y + k] = way_y_j - part_j * l_y;
+    j[way_z + k] = way_z_j - part_j * l_z;
     if constexpr (records)
     {
-      const float x_i = pulled.way_x_i[k] + part * x;
-      const float y_i = pulled.way_y_i[k] + part * y;
-      const float z_i = pulled.way_z_i[k] + part * z;
-      const float x_j = pulled.way_x_j[k] - part * x;
-      const float y_j = pulled.way_y_j[k] - part * y;
-      const float z_j = pulled.way_z_j[k] - part * z;
-      pulled.way_x_i[k] = x_i;
-      pulled.way_y_i[k] = y_i;
-      pulled.way_z_i[k] = z_i;
-      pulled.way_x_j[k] = x_j;
-      pulled.way_y_j[k] = y_j;
-      pulled.way_z_j[k] = z_j;
+      const float x_i = pull_i[lane_vector::x + k] + part * l_x;
+      const float y_i = pull_i[lane_vector::y + k] + part * l_y;
+      const float z_i = pull_i[lane_vector::z + k] + part * l_z;
+      const float x_j = pull_j[lane_vector::x + k] - part * l_x;
+      const float y_j = pull_j[lane_vector::y + k] - part * l_y;
+      const float z_j = pull_j[lane_vector::z + k] - part * l_z;
+      pull_i[lane_vector::x + k] = x_i;
+      pull_i[lane_vector::y + k] = y_i;
+      pull_i[lane_vector::z + k] = z_i;
+      pull_j[lane_vector::x + k] = x_j;
+      pull_j[lane_vector::y + k] = y_j;
+      pull_j[lane_vector::z + k] = z_j;
     }
   }
 }
@@ -59,11 +60,14 @@ void correct_run(const LaneEnds& ends, const Gains<float>& gains, const float* y
 }  // namespace
 
 LaneSprings::LaneSprings(const ClothModel& model, const LaneLayout& layout)
-  : runs_(layout.runs(model.springs, rows_a_band))
 {
+  for (const SpringRun& run : layout.runs(model.springs, rows_a_band))
+  {
+    runs_.emplace_back(run);
+  }
 }
 
-void LaneSprings::prepare(const ClothModel& model, double compliance, double h, const float* inverse_masses)
+void LaneSprings::prepare(const ClothModel& model, double compliance, double h, const LaneNodes& nodes)
 {
   gains_.clear();
   for (const SpringBatch& batch : model.springs)
@@ -71,41 +75,37 @@ void LaneSprings::prepare(const ClothModel& model, double compliance, double h, 
     gains_.push_back(gains_of<float>(batch, compliance, h));
   }
   yields_.clear();
-  for (const SpringRun& run : runs_)
+  for (const LaneRun& run : runs_)
   {
-    LaneTable::Row yields{};
-    for (int k = 0; k < run.n; ++k)
-    {
-      const float w = inverse_masses[run.node + k] + inverse_masses[run.node + run.offset + k];
-      yields[static_cast<size_t>(k)] = w > 0.0F ? 1.0F / resistance(gains_[run.batch], w) : 0.0F;
-    }
-    yields_.add(yields);
+    yields_.add(numbers_of_springs(nodes, run, [&](float w) { return 1.0F / resistance(gains_[run.batch], w); }));
   }
 }
 
-void LaneSprings::correct(const LaneNodes& nodes, AlignedVectors<float>* pulls) const
+void LaneSprings::correct(LaneNodes& nodes, LaneVectors* pulls) const
 {
   in_widest_vectors([&](auto arithmetic) {
     constexpr bool fused = arithmetic.has_fused_multiply_add;
     if (pulls != nullptr)
     {
-      correct_all<fused, true>(nodes, pulls->from(0));
+      correct_all<fused, true>(nodes.data(), pulls->data());
     }
     else
     {
-      correct_all<fused, false>(nodes, nodes.ways);
+      correct_all<fused, false>(nodes.data(), nullptr);
     }
   });
 }
 
 template <bool fused, bool records>
-void LaneSprings::correct_all(const LaneNodes& nodes, const Columns<float>& pulls) const
+void LaneSprings::correct_all(float* nodes, float* pulls) const
 {
-  const LaneNodes pulled{ nodes.inverse_masses, nodes.positions, pulls, nodes.nodes };
   for (size_t r = 0; r < runs_.size(); ++r)
   {
-    const SpringRun& run = runs_[r];
-    correct_run<fused, records>(LaneEnds(nodes, run), gains_[run.batch], yields_[r], LaneEnds(pulled, run));
+    const LaneRun& run = runs_[r];
+    float* const pull_i = records ? pulls + LaneVectors::place_of(run.i) : nullptr;
+    float* const pull_j = records ? pulls + LaneVectors::place_of(run.j) : nullptr;
+    correct_run<fused, records>(nodes + LaneNodes::place_of(run.i), nodes + LaneNodes::place_of(run.j),
+                                gains_[run.batch], yields_[r], pull_i, pull_j);
   }
 }
 

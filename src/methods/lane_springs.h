@@ -4,7 +4,6 @@
 
 #include "cloth_sim/model/cloth_model.h"
 
-#include "../model/aligned_vectors.h"
 #include "../model/lane_nodes.h"
 #include "../model/lane_table.h"
 #include "../model/spring_layout.h"
@@ -19,19 +18,19 @@ class LaneSprings
 public:
   LaneSprings(const ClothModel& model, const LaneLayout& layout);
 
-  /// To be called whenever the step, the compliance's factor or the masses (1/kg) have changed.
-  void prepare(const ClothModel& model, double compliance, double h, const float* inverse_masses);
+  /// To be called whenever the step, the compliance's factor or the nodes' masses have changed.
+  void prepare(const ClothModel& model, double compliance, double h, const LaneNodes& nodes);
 
   /// Corrects spring after spring. `pulls`, unless null, gets what springs give to nodes added, kg m.
-  void correct(const LaneNodes& nodes, AlignedVectors<float>* pulls) const;
+  void correct(LaneNodes& nodes, LaneVectors* pulls) const;
 
 private:
   static constexpr int rows_a_band = 8;  ///< whose springs are done batch by batch: they stay in the nearest cache
 
   template <bool fused, bool records>
-  void correct_all(const LaneNodes& nodes, const Columns<float>& pulls) const;
+  void correct_all(float* nodes, float* pulls) const;
 
-  std::vector<SpringRun> runs_;
+  std::vector<LaneRun> runs_;
   std::vector<Gains<float>> gains_;  ///< of the batches
   LaneTable yields_;                 ///< of every run's springs one over the resistance, kg; 0: no spring
 };

@@ -5,7 +5,6 @@
 #include "cloth_sim/model/wide_vectors.h"
 
 #include "../constraints/lane_tensions.h"
-#include "../model/aligned_vectors.h"
 #include "../model/lane_nodes.h"
 #include "../model/spring_layout.h"
 #include "lane_springs.h"
@@ -15,50 +14,6 @@ namespace cloth
 {
 namespace
 {
-
-/// Vectors in single precision of a state that is in doubles: what they gain is added to it.
-class SingleCopy
-{
-public:
-  /// `origin` is what they are relative to.
-  void take(const Vectors& doubles, const Eigen::RowVector3d& origin, const std::vector<int>& numbers)
-  {
-    for (int d = 0; d < 3; ++d)
-    {
-      float* const column = singles_.from(0)[static_cast<size_t>(d)];
-      for (size_t node = 0; node < numbers.size(); ++node)
-      {
-        column[numbers[node]] = static_cast<float>(doubles(static_cast<Eigen::Index>(node), d) - origin[d]);
-      }
-    }
-    taken_ = singles_;
-  }
-
-  void add_gains_to(Vectors& doubles, const std::vector<int>& numbers)
-  {
-    for (int d = 0; d < 3; ++d)
-    {
-      const float* const now = singles_.from(0)[static_cast<size_t>(d)];
-      const float* const then = taken_.from(0)[static_cast<size_t>(d)];
-      for (size_t node = 0; node < numbers.size(); ++node)
-      {
-        const int number = numbers[node];
-        doubles(static_cast<Eigen::Index>(node), d) +=
-            static_cast<double>(now[number]) - static_cast<double>(then[number]);
-      }
-    }
-    taken_ = singles_;
-  }
-
-  AlignedVectors<float>& singles()
-  {
-    return singles_;
-  }
-
-private:
-  AlignedVectors<float> singles_;
-  AlignedVectors<float> taken_;
-};
 
 /// The method of xpbd.cpp in mixed precision: the state is kept in doubles, and a step adds to it what its substeps
 /// come to in single precision, positions relative to the sheet's middle. Nodes are in the order of LaneLayout. A
@@ -80,7 +35,7 @@ public:
 
   StepReport step(const Dynamics& dynamics, double h, ClothState& state) override
   {
-    if (!sheet_ || static_cast<int>(sheet_->numbers.size()) != dynamics.model().nodes())
+    if (!sheet_ || static_cast<int>(sheet_->places.size()) != dynamics.model().nodes())
     {
       sheet_ = std::make_unique<Sheet>(dynamics.model());
     }
@@ -118,62 +73,42 @@ private:
     {
       for (int node = 0; node < model.nodes(); ++node)
       {
-        numbers.push_back(layout[node]);
+        places.push_back(LaneNodes::place_of(layout[node]));
       }
-      for (AlignedVectors<float>* const vectors :
-           { &positions.singles(), &velocities.singles(), &ways, &inertias })
-      {
-        vectors->set_zero(layout.nodes());
-      }
-    }
-
-    const float* inverse_masses() const
-    {
-      return inertias.from(0)[0];
-    }
-    /// What the air leaves of a speed.
-    const float* remainders() const
-    {
-      return inertias.from(0)[1];
-    }
-    LaneNodes nodes()
-    {
-      return { inverse_masses(), positions.singles().from(0), ways.from(0), layout.nodes() };
+      nodes.set_zero(layout.nodes());
+      remainders.set_zero(layout.nodes());
     }
 
     LaneLayout layout;
-    std::vector<int> numbers;  ///< of the model's nodes
+    std::vector<int> places;  ///< of the model's nodes among those of the layout
+    LaneNodes nodes;
+    LaneBlocks<1> remainders;  ///< what the air leaves of a speed
     LaneSprings springs;
     LaneTensions limit;
-    double substep = 0.0;  ///< that springs and limit are prepared for, with these nodes held
+    float substep = 0.0F;  ///< that springs and limit are prepared for, with these nodes held
     std::vector<int> held;
-    SingleCopy positions;
-    SingleCopy velocities;           ///< at the step's begin and end
-    AlignedVectors<float> ways;      ///< of a substep, m
-    AlignedVectors<float> inertias;  ///< inverse masses and remainders
-    AlignedVectors<float> pulls;     ///< what springs gave to nodes in this step, kg m, where that is recorded
+    LaneVectors pulls;  ///< what springs gave to nodes in this step, kg m, where that is recorded
   };
 
   void begin_step(const Dynamics& dynamics, double substep, const ClothState& state)
   {
     const ClothModel& model = dynamics.model();
     Sheet& sheet = *sheet_;
-    sheet.positions.take(state.positions, state.positions.colwise().mean(), sheet.numbers);
-    sheet.velocities.take(state.velocities, Eigen::RowVector3d::Zero(), sheet.numbers);
     inverse_masses_.resize(model.nodes());
     dynamics.pins().find_inverse_masses(model.masses, inverse_masses_);
     const Air& air = dynamics.air();
     const double damping = air.is_coupled(model) ? 0.0 : substep * air.properties().viscous_damping;
-    const Columns<float> inertias = sheet.inertias.from(0);
     for (int node = 0; node < model.nodes(); ++node)
     {
-      const int number = sheet.numbers[static_cast<size_t>(node)];
       const double mass = model.masses[node];
-      inertias[0][number] = static_cast<float>(inverse_masses_[node]);
-      inertias[1][number] = static_cast<float>(mass / (mass + damping * model.areas[node]));
+      const int number = sheet.layout[node];
+      sheet.nodes.data()[sheet.places[static_cast<size_t>(node)] + lane_node::inverse_mass] =
+          static_cast<float>(inverse_masses_[node]);
+      sheet.remainders.data()[LaneBlocks<1>::place_of(number)] =
+          static_cast<float>(mass / (mass + damping * model.areas[node]));
     }
+    take(substep, state);
     prepare(dynamics, substep);
-    find_ways(substep);
     if (records())
     {
       sheet.pulls.set_zero(sheet.layout.nodes());
@@ -188,95 +123,116 @@ private:
       held.insert(held.end(), pin.nodes.begin(), pin.nodes.end());
     }
     Sheet& sheet = *sheet_;
-    if (substep != sheet.substep || held != sheet.held)
+    const auto rounded = static_cast<float>(substep);
+    if (rounded != sheet.substep || held != sheet.held)
     {
-      sheet.substep = substep;
+      sheet.substep = rounded;
       sheet.held.swap(held);
-      sheet.springs.prepare(dynamics.model(), compliance_, substep, sheet.inverse_masses());
-      sheet.limit.prepare(sheet.inverse_masses(), sheet.held);
+      sheet.springs.prepare(dynamics.model(), compliance_, rounded, sheet.nodes);
+      sheet.limit.prepare(sheet.nodes, sheet.held);
     }
   }
 
-  /// Of a substep of length h at the velocities; held nodes stay.
-  void find_ways(double h)
+  /// Positions, and the ways of a substep of length h at the velocities, 0 where nodes are held.
+  void take(double h, const ClothState& state)
   {
-    Sheet& sheet = *sheet_;
-    const auto duration = static_cast<float>(h);
-    const float* const w = sheet.inverse_masses();
-    for_each_column([&](size_t d) {
-      return [=, way = sheet.ways.from(0)[d], v = sheet.velocities.singles().from(0)[d]](int i) {
-        way[i] = w[i] > 0.0F ? duration * v[i] : 0.0F;
-      };
+    origin_ = state.positions.colwise().mean();
+    rate_ = static_cast<float>(1.0 / h);
+    for_each_coordinate([&](int node, int d, float& x, float& way, bool is_held) {
+      x = from_origin(state, node, d);
+      way = is_held ? 0.0F : static_cast<float>(state.velocities(node, d)) / rate_;
     });
   }
 
-  /// Of nodes that are not held, from the ways of the last substep.
-  void find_velocities(double h)
+  /// Adds to positions and velocities what they have gained since they were taken.
+  void give(ClothState& state)
   {
-    Sheet& sheet = *sheet_;
-    const auto rate = static_cast<float>(1.0 / h);
-    const float* const w = sheet.inverse_masses();
-    for_each_column([&](size_t d) {
-      return [=, way = sheet.ways.from(0)[d], v = sheet.velocities.singles().from(0)[d]](int i) {
-        v[i] = w[i] > 0.0F ? rate * way[i] : v[i];
-      };
+    for_each_coordinate([&](int node, int d, float& x, float& way, bool is_held) {
+      const double gain = static_cast<double>(x) - static_cast<double>(from_origin(state, node, d));
+      state.positions(node, d) += is_held ? 0.0 : gain;
+      double& v = state.velocities(node, d);
+      v += is_held ? 0.0 : static_cast<double>(rate_ * way) - static_cast<double>(static_cast<float>(v));
     });
+  }
+
+  float from_origin(const ClothState& state, int node, int d) const
+  {
+    return static_cast<float>(state.positions(node, d) - origin_[d]);
+  }
+
+  /// visit(node, d, x, way, is held) for all nodes of the model and coordinates d.
+  template <typename Visit>
+  void for_each_coordinate(Visit&& visit)
+  {
+    float* const nodes = sheet_->nodes.data();
+    for (int d = 0; d < 3; ++d)
+    {
+      for (size_t node = 0; node < sheet_->places.size(); ++node)
+      {
+        float* const at = nodes + sheet_->places[node];
+        visit(static_cast<int>(node), d, at[lane_node::x + d * lanes], at[lane_node::way_x + d * lanes],
+              at[lane_node::inverse_mass] == 0.0F);
+      }
+    }
   }
 
   /// From the ways of the last substep to those that nothing but gravity and air changes; held nodes stay.
   void set_out(const Dynamics& dynamics, double h, ClothState& state)
   {
-    Sheet& sheet = *sheet_;
+    using namespace lane_node;
     part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
     if (dynamics.air().is_coupled(dynamics.model()))
     {
-      bring_up_to_date(h, state);
+      give(state);
       state.velocities.rowwise() += h * dynamics.gravity().transpose();
       dynamics.air().damp_implicitly(dynamics.model(), state.time + h, state.positions, h, state.velocities);
-      sheet.velocities.take(state.velocities, Eigen::RowVector3d::Zero(), sheet.numbers);
-      find_ways(h);
+      take(h, state);
       return;
     }
-    const float* const remainders = sheet.remainders();
-    const float* const w = sheet.inverse_masses();
-    for_each_column([&](size_t d) {
-      return [=, way = sheet.ways.from(0)[d],
-              fall = static_cast<float>(h * h * dynamics.gravity()[static_cast<Eigen::Index>(d)])](int i) {
-        way[i] = w[i] > 0.0F ? remainders[i] * (way[i] + fall) : 0.0F;
-      };
-    });
-  }
-
-  /// work_on(d)(i) for all coordinates d and nodes i.
-  template <typename WorkOn>
-  void for_each_column(WorkOn&& work_on)
-  {
-    const int n = sheet_->layout.nodes();
-    in_widest_vectors([&, n](auto) {
-      for (size_t d = 0; d < 3; ++d)
-      {
-        const auto work = work_on(d);
+    const Eigen::Vector3f fall = (h * h * dynamics.gravity()).cast<float>();
+    for_each_vector([fall_x = fall[0], fall_y = fall[1], fall_z = fall[2]](float* node, const float* remainder) {
 #pragma GCC ivdep
-        for (int i = 0; i < n; ++i)
-        {
-          work(i);
-        }
+      for (int k = 0; k < lanes; ++k)
+      {
+        const float part = node[inverse_mass + k] > 0.0F ? remainder[k] : 0.0F;
+        node[way_x + k] = part * (node[way_x + k] + fall_x);
+        node[way_y + k] = part * (node[way_y + k] + fall_y);
+        node[way_z + k] = part * (node[way_z + k] + fall_z);
       }
     });
   }
 
-  void bring_up_to_date(double h, ClothState& state)
+  void arrive()
   {
-    find_velocities(h);
-    sheet_->positions.add_gains_to(state.positions, sheet_->numbers);
-    sheet_->velocities.add_gains_to(state.velocities, sheet_->numbers);
+    using namespace lane_node;
+    for_each_vector([](float* node, const float* /*remainder*/) {
+#pragma GCC ivdep
+      for (int k = 0; k < lanes; ++k)
+      {
+        node[x + k] += node[way_x + k];
+        node[y + k] += node[way_y + k];
+        node[z + k] += node[way_z + k];
+      }
+    });
+  }
+
+  /// work(nodes, remainders) for all vectors of nodes.
+  template <typename Work>
+  void for_each_vector(Work&& work)
+  {
+    Sheet& sheet = *sheet_;
+    in_widest_vectors([&](auto) {
+      for (int v = 0; v < sheet.layout.nodes() / lanes; ++v)
+      {
+        work(sheet.nodes.data() + v * LaneNodes::size, sheet.remainders.data() + v * lanes);
+      }
+    });
   }
 
   /// Puts held nodes where they are at the substep's end: their part of the state has been there already.
   void move_held(const Pins& pins, ClothState& state)
   {
     Sheet& sheet = *sheet_;
-    const Columns<float> ways = sheet.ways.from(0);
     held_before_.clear();
     for (const int node : sheet.held)
     {
@@ -286,10 +242,10 @@ private:
     for (size_t k = 0; k < sheet.held.size(); ++k)
     {
       const int node = sheet.held[k];
-      const int number = sheet.layout[node];
+      float* const way = sheet.nodes.data() + sheet.places[static_cast<size_t>(node)] + lane_node::way_x;
       for (int d = 0; d < 3; ++d)
       {
-        ways[static_cast<size_t>(d)][number] = static_cast<float>(state.positions(node, d) - held_before_[k][d]);
+        way[d * lanes] = static_cast<float>(state.positions(node, d) - held_before_[k][d]);
       }
     }
   }
@@ -302,31 +258,23 @@ private:
       part_calls()[Part::internal_damping] += compliance_ * batch.damping > 0.0 ? 1 : 0;
     }
     Sheet& sheet = *sheet_;
-    sheet.springs.correct(sheet.nodes(), records() ? &sheet.pulls : nullptr);
+    sheet.springs.correct(sheet.nodes, records() ? &sheet.pulls : nullptr);
   }
 
   /// The strain limit. Returns the passes that it took.
   int shorten(bool is_last)
   {
     Sheet& sheet = *sheet_;
-    int passes = sheet.limit.follow(sheet.nodes(), max_strain_, passes_);
+    int passes = sheet.limit.follow(sheet.nodes, max_strain_, passes_);
     if (is_last)
     {
-      passes += sheet.limit.finish(sheet.nodes(), max_strain_, passes_);
+      passes += sheet.limit.finish(sheet.nodes, max_strain_, passes_);
     }
     if (records())
     {
-      sheet.limit.add_tensions_to(sheet.pulls.from(0));
+      sheet.limit.add_tensions_to(sheet.pulls);
     }
     return passes;
-  }
-
-  void arrive()
-  {
-    Sheet& sheet = *sheet_;
-    for_each_column([&](size_t d) {
-      return [way = sheet.ways.from(0)[d], x = sheet.positions.singles().from(0)[d]](int i) { x[i] += way[i]; };
-    });
   }
 
   void record_external_forces(const Dynamics& dynamics, double h, const ClothState& state)
@@ -338,14 +286,14 @@ private:
 
   void end_step(const Pins& pins, double substep, ClothState& state)
   {
-    bring_up_to_date(substep, state);
+    give(state);
     pins.impose(state.time, state.positions, state.velocities);
     for (const int node : records() ? sheet_->held : std::vector<int>())
     {
+      const float* const pull = sheet_->pulls.data() + LaneVectors::place_of(sheet_->layout[node]);
       for (int d = 0; d < 3; ++d)
       {
-        const float pull = sheet_->pulls.from(0)[static_cast<size_t>(d)][sheet_->layout[node]];
-        impulses()(node, d) += static_cast<double>(pull) / substep;
+        impulses()(node, d) += static_cast<double>(pull[d * lanes]) / substep;
       }
     }
   }
@@ -355,6 +303,8 @@ private:
   double max_strain_ = 0.0;
   int passes_ = 0;
   std::unique_ptr<Sheet> sheet_;
+  Eigen::RowVector3d origin_;  ///< that positions in single precision are relative to
+  float rate_ = 0.0F;          ///< velocities over ways, 1/s
   std::vector<Eigen::RowVector3d> held_before_;
   Vectors forces_;
   Eigen::VectorXd inverse_masses_;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "cloth_sim/model/spring_rows.h"
 
+#include "aligned_vectors.h"
 #include "spring_layout.h"
 
 namespace cloth
@@ -9,52 +12,74 @@ namespace cloth
 
 inline constexpr int lanes = lanes_of<float>;
 
-/// A sheet's nodes in single precision while a step moves them, in the order of LaneLayout. All columns have room for
-/// `row_padding` more.
-struct LaneNodes
+/// Some numbers for each of 16 nodes or springs, a vector of each number side by side, and so on for the next 16: what
+/// a loop over 16 reads is in one piece, and one address is enough for all of it. Numbers that lie a lane further on
+/// than a vector begins (LaneLayout) reach into the next vector by one, which loops must leave as it is.
+template <int numbers>
+class LaneBlocks
 {
-  const float* inverse_masses;  ///< 1/kg; 0: held
-  Columns<float> positions;     ///< at the step's begin, m
-  Columns<float> ways;          ///< since then, m: differences of them are not rounded as those of positions are
-  int nodes;
+public:
+  static constexpr int size = numbers * lanes;  ///< of a block
+
+  void set_zero(int nodes)
+  {
+    values_.assign(static_cast<size_t>((nodes + lanes - 1) / lanes * size + lanes), 0.0F);
+  }
+
+  /// Where the node of this number in a LaneLayout has its first number; the others are a vector further on each.
+  static int place_of(int node)
+  {
+    return node / lanes * size + node % lanes;
+  }
+
+  float* data()
+  {
+    return values_.data();
+  }
+  const float* data() const
+  {
+    return values_.data();
+  }
+
+private:
+  AlignedNumbers<float> values_;
 };
 
-/// The ends of a vector of springs. Loops over them are written out coordinate by coordinate, as compilers make vectors
-/// of no others.
-struct LaneEnds
+/// A sheet's nodes while a step moves them: where each of their numbers begins in a block.
+namespace lane_node
 {
-  LaneEnds(const LaneNodes& nodes, const SpringRun& run)
-    : w_i(nodes.inverse_masses + run.node)
-    , w_j(w_i + run.offset)
-    , x_i(nodes.positions[0] + run.node)
-    , y_i(nodes.positions[1] + run.node)
-    , z_i(nodes.positions[2] + run.node)
-    , x_j(x_i + run.offset)
-    , y_j(y_i + run.offset)
-    , z_j(z_i + run.offset)
-    , way_x_i(nodes.ways[0] + run.node)
-    , way_y_i(nodes.ways[1] + run.node)
-    , way_z_i(nodes.ways[2] + run.node)
-    , way_x_j(way_x_i + run.offset)
-    , way_y_j(way_y_i + run.offset)
-    , way_z_j(way_z_i + run.offset)
+inline constexpr int inverse_mass = 0;  ///< 1/kg; 0: held
+inline constexpr int x = 1 * lanes;     ///< at the substep's begin, m
+inline constexpr int y = 2 * lanes;
+inline constexpr int z = 3 * lanes;
+inline constexpr int way_x = 4 * lanes;  ///< since then, m: differences of them are not rounded as those of x are
+inline constexpr int way_y = 5 * lanes;
+inline constexpr int way_z = 6 * lanes;
+}  // namespace lane_node
+
+using LaneNodes = LaneBlocks<7>;
+
+/// A vector of each coordinate, of what springs do to nodes or have as tensions.
+namespace lane_vector
+{
+inline constexpr int x = 0 * lanes;
+inline constexpr int y = 1 * lanes;
+inline constexpr int z = 2 * lanes;
+}  // namespace lane_vector
+
+using LaneVectors = LaneBlocks<3>;
+
+/// A vector of springs: the numbers of their first ends, and of the second.
+struct LaneRun
+{
+  explicit LaneRun(const SpringRun& run) : batch(run.batch), i(run.node), j(run.node + run.offset), n(run.n)
   {
   }
 
-  const float* w_i;
-  const float* w_j;
-  const float* x_i;
-  const float* y_i;
-  const float* z_i;
-  const float* x_j;
-  const float* y_j;
-  const float* z_j;
-  float* way_x_i;
-  float* way_y_i;
-  float* way_z_i;
-  float* way_x_j;
-  float* way_y_j;
-  float* way_z_j;
+  size_t batch;
+  int i;
+  int j;
+  int n;
 };
 
 }  // namespace cloth

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "aligned_vectors.h"
+#include "lane_nodes.h"
 
 namespace cloth
 {
@@ -16,7 +17,7 @@ namespace cloth
 class LaneTable
 {
 public:
-  using Row = std::array<float, row_padding>;
+  using Row = std::array<float, lanes>;
 
   void clear()
   {
@@ -52,5 +53,21 @@ private:
   std::vector<std::uint32_t> begins_;
   AlignedNumbers<float> rows_;
 };
+
+/// number(w) of the springs of a run, w being the sum of their ends' inverse masses; 0 where there is no spring, and
+/// where both ends are held.
+template <typename Number>
+LaneTable::Row numbers_of_springs(const LaneNodes& nodes, const LaneRun& run, Number&& number)
+{
+  const float* const i = nodes.data() + LaneNodes::place_of(run.i);
+  const float* const j = nodes.data() + LaneNodes::place_of(run.j);
+  LaneTable::Row row{};
+  for (int k = 0; k < run.n; ++k)
+  {
+    const float w = i[lane_node::inverse_mass + k] + j[lane_node::inverse_mass + k];
+    row[static_cast<size_t>(k)] = w > 0.0F ? number(w) : 0.0F;
+  }
+  return row;
+}
 
 }  // namespace cloth
