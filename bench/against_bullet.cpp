@@ -98,7 +98,7 @@ class OurCloth
 {
 public:
   OurCloth(const LevelSheet& sheet, double time_step, const MethodSettings& settings)
-    : simulation_(simulation_of(sheet, { max_strain_of_ours, 100, LimitSolver::tensions }, "xpbd", time_step, settings))
+    : simulation_(simulation_of(sheet, { max_strain_of_ours, 300, LimitSolver::tensions }, "xpbd", time_step, settings))
   {
   }
 

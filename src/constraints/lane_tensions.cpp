@@ -142,7 +142,7 @@ LaneTensions::LaneTensions(const ClothModel& model, const LaneLayout& layout)
   {
     rest_lengths_.push_back(static_cast<float>(batch.rest_length));
   }
-  for (const SpringRun& run : layout.runs(batches, 1))
+  for (const SpringRun& run : layout.runs(batches, rows_a_band))
   {
     runs_.push_back({ LaneRun(run) });
   }

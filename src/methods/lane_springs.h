@@ -25,8 +25,6 @@ public:
   void correct(LaneNodes& nodes, LaneVectors* pulls) const;
 
 private:
-  static constexpr int rows_a_band = 8;  ///< whose springs are done batch by batch: they stay in the nearest cache
-
   template <bool fused, bool records>
   void correct_all(float* nodes, float* pulls) const;
 
