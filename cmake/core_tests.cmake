@@ -24,6 +24,7 @@ endif()
 cloth_add_test(model
   test/model/cloth_model_test.cpp
   test/model/inverse_root_test.cpp
+  test/model/lane_table_test.cpp
   test/model/spring_layout_test.cpp
 )
 target_include_directories(test_model PRIVATE src/model)

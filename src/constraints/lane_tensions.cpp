@@ -160,20 +160,22 @@ void LaneTensions::prepare(const LaneNodes& nodes, const std::vector<int>& held)
   }
 }
 
-int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes)
+int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes, double h)
 {
+  margin_ += std::clamp(wanted_margin_ - margin_, -StrainLimit::margin_speed * h, StrainLimit::margin_speed * h);
   const float target = stretch_held(max_strain);
   const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_between));
   const bool is_watched = falls_behind_ || ++follows_ % follows_a_watch == 0;
-  const int allowed = std::min(passes, is_watched ? most_passes_between : 1);
+  const int allowed = std::min(passes, is_watched ? most_passes_between : there_and_back);
   float factor = pull_as_before(nodes, target);
   int done = 0;
-  while (done < allowed && (done == 0 || has_longer(nodes, most, Springs::taut)) && relax(nodes, target, factor))
+  while (done < allowed && (done < there_and_back || has_longer(nodes, most, Springs::taut)) &&
+         relax(nodes, target, factor))
   {
     factor = 1.0F;
     ++done;
   }
-  falls_behind_ = falls_behind_ || done > 1;
+  falls_behind_ = falls_behind_ || done > there_and_back;
   return done;
 }
 
@@ -187,8 +189,8 @@ int LaneTensions::finish(LaneNodes& nodes, double max_strain, int passes)
     ++done;
   }
   falls_behind_ = done > 1;
-  margin_ = falls_behind_ ? std::min(margin_growth * std::max(margin_, first_margin), most_margin) :
-                            std::max(margin_decay * margin_, StrainLimit::least_margin);
+  wanted_margin_ = falls_behind_ ? std::min(margin_growth * std::max(wanted_margin_, first_margin), most_margin) :
+                                   std::max(margin_decay * wanted_margin_, StrainLimit::least_margin);
   return done;
 }
 

@@ -15,9 +15,10 @@ namespace cloth
 {
 
 /// SpringTensions in single precision, 16 springs at a time, for a method that takes short substeps: tensions change so
-/// little from one to the next that a pass in each keeps up with them. More are made where a sheet falls behind, and at
-/// a step's end until the limit is kept. As substeps leave springs a little longer than a pass aims at, it aims at a
-/// margin below the limit, which grows when the end of a step takes many passes, and dies away while it does not.
+/// little from one to the next that two passes in each, there and back, keep up with them; a single one leaves a sheet
+/// restless. More are made where it falls behind, and at a step's end until the limit is kept. As substeps leave
+/// springs a little longer than a pass aims at, it aims at a margin below the limit, which grows when the end of a step
+/// takes many passes, and dies away while it does not.
 class LaneTensions
 {
 public:
@@ -26,9 +27,9 @@ public:
   /// To be called whenever the nodes' masses have changed. `held`: numbers of nodes in the model.
   void prepare(const LaneNodes& nodes, const std::vector<int>& held);
 
-  /// To be called in every substep, after the springs have had their say: one pass, and more where the strain is far
-  /// above max_strain, but at most `passes`. Returns how many.
-  int follow(LaneNodes& nodes, double max_strain, int passes);
+  /// To be called in every substep, of length h (s), after the springs have had their say: a pass there and one back,
+  /// and more where the strain is far above max_strain, but at most `passes`. Returns how many.
+  int follow(LaneNodes& nodes, double max_strain, int passes, double h);
 
   /// To be called once more in the last substep of a step: as many passes as max_strain takes, at most `passes`.
   int finish(LaneNodes& nodes, double max_strain, int passes);
@@ -46,6 +47,7 @@ private:
   /// StrainLimit::tolerance.
   static constexpr double excess_between = 0.05;
   static constexpr double excess_at_end = 0.5 * StrainLimit::tolerance;
+  static constexpr int there_and_back = 2;
   static constexpr int most_passes_between = 10;
   static constexpr int follows_a_watch = 2;   ///< so seldom is the excess looked at while nothing falls behind
   static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
@@ -82,9 +84,10 @@ private:
   std::vector<float> rest_lengths_;  ///< of the batches, m
   std::vector<Run> runs_;
   LaneTethers tethers_;
-  int vectors_;  ///< of nodes
+  int vectors_;                          ///< of nodes
+  double wanted_margin_ = first_margin;  ///< that the margin approaches
   double margin_ = first_margin;
-  bool falls_behind_ = false;  ///< one pass a substep was not enough
+  bool falls_behind_ = false;  ///< two passes a substep were not enough
   bool backwards_ = false;     ///< the last pass
   int follows_ = 0;
   LaneVectors tensions_;      ///< of every run, kg m

@@ -84,8 +84,7 @@ void add_some_shifts(const float* nodes, const Point& anchor, const float* lengt
     const float l_y = anchor.y - nodes[y + k] - nodes[way_y + k];
     const float l_z = anchor.z - nodes[z + k] - nodes[way_z + k];
     const float square = p_x * p_x + p_y * p_y + p_z * p_z;
-    parabola.rise[k] +=
-        p_x * l_x + p_y * l_y + p_z * l_z - stretch * lengths[k] * square * inverse_root<fused>(square);
+    parabola.rise[k] += p_x * l_x + p_y * l_y + p_z * l_z - stretch * lengths[k] * square * inverse_root<fused>(square);
     parabola.curvature[k] += float(DualParabola<float>::compliance) * w * square;
     shifts[lane_vector::x + k] += w * p_x;
     shifts[lane_vector::y + k] += w * p_y;
@@ -96,10 +95,7 @@ void add_some_shifts(const float* nodes, const Point& anchor, const float* lengt
 }  // namespace
 
 LaneTethers::LaneTethers(const ClothModel& model, const LaneLayout& layout)
-  : layout_(layout)
-  , nodes_(model.nodes())
-  , has_ways_(has_springs(model, SpringKind::structural))
-  , ways_(model)
+  : layout_(layout), nodes_(model.nodes()), has_ways_(has_springs(model, SpringKind::structural)), ways_(model)
 {
 }
 

@@ -12,10 +12,10 @@
 namespace cloth
 {
 
-/// A spring from every node to each of those that are held, as long as the shortest way along springs between them (Kim,
-/// Chentanez and Mueller-Fischer, "Long range attachments", 2012). It forbids nothing that they allow, and says in one
-/// pass what they pass on from one to the next; but which of both is to pull is open, so that the last digits of a
-/// correction from nothing take more passes than without. Tensions are those of LaneTensions.
+/// A spring from every node to each of those that are held, as long as the shortest way along springs between them
+/// (Kim, Chentanez and Mueller-Fischer, "Long range attachments", 2012). It forbids nothing that they allow, and says
+/// in one pass what they pass on from one to the next; but which of both is to pull is open, so that the last digits of
+/// a correction from nothing take more passes than without. Tensions are those of LaneTensions.
 class LaneTethers
 {
 public:

@@ -175,7 +175,7 @@ PlainSweeps::PlainSweeps(const ClothModel& model) : batches_(limited_batches(mod
 }
 
 StrainLimit::Report PlainSweeps::shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
-                                         Vectors& positions, Vectors* shifts)
+                                         double /*h*/, Vectors& positions, Vectors* shifts)
 {
   Sweeps sweeps(batches_, max_strain, inverse_masses, positions, shifts);
   StrainLimit::Report report;

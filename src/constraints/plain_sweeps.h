@@ -17,8 +17,8 @@ class PlainSweeps : public Shortening
 public:
   explicit PlainSweeps(const ClothModel& model);
 
-  StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, Vectors& positions,
-                              Vectors* shifts) override;
+  StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, double h,
+                              Vectors& positions, Vectors* shifts) override;
 
   void go_on_from(const Shortening&) override
   {

@@ -17,10 +17,10 @@ public:
   virtual ~Shortening() = default;
 
   /// Corrects the positions (m), which have room for `row_padding` nodes more, so that no strain is above max_strain,
-  /// in at most so many passes over the springs. Nodes of inverse mass 0 (1/kg) stay; `shifts`, unless null, gets what
-  /// they were spared added to their rows, kg m: their springs' pull on them, as a mass times a way. Other rows are of
-  /// no meaning.
-  virtual StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
+  /// in at most so many passes over the springs, at the end of a step of length h (s). Nodes of inverse mass 0 (1/kg)
+  /// stay; `shifts`, unless null, gets what they were spared added to their rows, kg m: their springs' pull on them, as
+  /// a mass times a way. Other rows are of no meaning.
+  virtual StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, double h,
                                       Vectors& positions, Vectors* shifts) = 0;
 
   /// Takes over what `before`, of the same sheet, knows from its last call, where that is of use.

@@ -148,9 +148,7 @@ bool are_the_same(const SpringRun& a, const SpringRun& b)
 }  // namespace
 
 SpringTensions::SpringTensions(const ClothModel& model)
-  : batches_(limited_batches(model))
-  , nodes_(model.nodes())
-  , moved_at_(static_cast<size_t>(nodes_ / mark_size + 2), 0)
+  : batches_(limited_batches(model)), nodes_(model.nodes()), moved_at_(static_cast<size_t>(nodes_ / mark_size + 2), 0)
 {
   int first = 0;
   for (const SpringRun& run : runs_by_rows(batches_, model.rows))
@@ -170,6 +168,7 @@ void SpringTensions::go_on_from(const Shortening& before)
     return;
   }
   reached_ = other->reached_;
+  wanted_margin_ = other->wanted_margin_;
   margin_ = other->margin_;
   auto next = other->runs_.begin();
   for (Run& run : runs_)
@@ -193,7 +192,7 @@ void SpringTensions::go_on_from(const Shortening& before)
 }
 
 StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes,
-                                            Vectors& positions, Vectors* shifts)
+                                            double h, Vectors& positions, Vectors* shifts)
 {
   const double* const w = inverse_masses.data();
   const Columns<double> columns = columns_of(positions);
@@ -216,8 +215,9 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
     longest = find_taut(w, columns);
   }
   reached_ = report.reached;
-  margin_ = std::clamp(margin_ * (report.sweeps > few ? margin_growth : margin_decay), StrainLimit::least_margin,
-                       StrainLimit::most_margin);
+  wanted_margin_ = std::clamp(wanted_margin_ * (report.sweeps > few ? margin_growth : margin_decay),
+                              StrainLimit::least_margin, StrainLimit::most_margin);
+  margin_ += std::clamp(wanted_margin_ - margin_, -StrainLimit::margin_speed * h, StrainLimit::margin_speed * h);
   if (shifts != nullptr)
   {
     add_tensions_to(columns_of(*shifts));
@@ -291,7 +291,8 @@ SpringTensions::Lengths SpringTensions::find_taut(const double* inverse_masses, 
         continue;
       }
       const double taut = target_length(run);
-      const double too_long = batches_[springs.batch].rest_length * (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance));
+      const double too_long =
+          batches_[springs.batch].rest_length * (1.0 + max_strain_ * (1.0 + StrainLimit::tolerance));
       const SpringRow row = row_of(springs, inverse_masses, positions);
       if (!has_longer(row, taut * taut))
       {

@@ -33,8 +33,8 @@ class SpringTensions : public Shortening
 public:
   explicit SpringTensions(const ClothModel& model);
 
-  StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, Vectors& positions,
-                              Vectors* shifts) override;
+  StrainLimit::Report shorten(const Eigen::VectorXd& inverse_masses, double max_strain, int passes, double h,
+                              Vectors& positions, Vectors* shifts) override;
   void go_on_from(const Shortening& before) override;
 
 private:
@@ -80,6 +80,7 @@ private:
   int nodes_;
   double max_strain_ = 0.0;  ///< of the step
   bool reached_ = true;
+  double wanted_margin_ = StrainLimit::least_margin;  ///< that the margin approaches
   double margin_ = StrainLimit::least_margin;
   AlignedVectors<double> tensions_;  ///< one for each spring, kg m
   AlignedVectors<double> shifts_;    ///< what the tensions of the last step ask for, m

@@ -101,7 +101,7 @@ StrainLimit::Report StrainLimit::apply(const ClothModel& model, const Pins& pins
   find_reach(model, pins, state.positions);
   corrected_.topRows(model.nodes()) = state.positions;
   Vectors shifts = Vectors::Zero(impulses != nullptr ? model.nodes() : 0, 3);
-  const Report report = shortening_->shorten(inverse_masses_, strain_in_force(), properties_.sweeps, corrected_,
+  const Report report = shortening_->shorten(inverse_masses_, strain_in_force(), properties_.sweeps, h, corrected_,
                                              impulses != nullptr ? &shifts : nullptr);
   if (report.moved)
   {

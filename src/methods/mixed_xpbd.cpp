@@ -265,7 +265,7 @@ private:
   int shorten(bool is_last)
   {
     Sheet& sheet = *sheet_;
-    int passes = sheet.limit.follow(sheet.nodes, max_strain_, passes_);
+    int passes = sheet.limit.follow(sheet.nodes, max_strain_, passes_, sheet.substep);
     if (is_last)
     {
       passes += sheet.limit.finish(sheet.nodes, max_strain_, passes_);

@@ -45,8 +45,8 @@ void find_changes(const SpringRow& ways, const SpringRow& before, const Gains<do
     const double y = y_j[k] - y_i[k] + way_y;
     const double z = z_j[k] - z_i[k] + way_z;
     const double w = w_i[k] + w_j[k];
-    const double excess = correction<fused>(x * x + y * y + z * z, x * way_x + y * way_y + z * way_z,
-                                            local.rest_length, local.damping);
+    const double excess =
+        correction<fused>(x * x + y * y + z * z, x * way_x + y * way_y + z * way_z, local.rest_length, local.damping);
     const double part = is_chosen(k) && k < n && w > 0.0 ? excess / resistance(local, w) : 0.0;
     changes.x[k] = part * x;
     changes.y[k] = part * y;

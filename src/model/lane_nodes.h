@@ -12,8 +12,8 @@ namespace cloth
 
 inline constexpr int lanes = lanes_of<float>;
 
-/// Springs are visited batch by batch for so many rows of nodes: these stay in the nearest cache, and springs that follow
-/// each other seldom wait for one another's ends.
+/// Springs are visited batch by batch for so many rows of nodes: these stay in the nearest cache, and springs that
+/// follow each other seldom wait for one another's ends.
 inline constexpr int rows_a_band = 8;
 
 /// Some numbers for each of 16 nodes or springs, a vector of each number side by side, and so on for the next 16: what

@@ -12,8 +12,8 @@
 namespace cloth
 {
 
-/// 16 numbers for each run of springs. Most runs of a sheet have the same, which are kept once: they stay in the nearest
-/// cache.
+/// 16 numbers for each run of springs. Most runs of a sheet have the same, which are kept once: they stay in the
+/// nearest cache.
 class LaneTable
 {
 public:

@@ -26,9 +26,9 @@ std::vector<SpringRun> runs_by_rows(const std::vector<SpringBatch>& batches, int
   return runs;
 }
 
-// Springs reach two columns, and where they go on from the last vectors of a row to the first, a lane further, what is
-// loaded and stored for the second ends takes in a lane of the vector behind these, which must not be one of the first
-// ends: hence four vectors at least.
+// Springs reach two columns. Where they go on from a row's last vectors to its first, a lane further, what is loaded and
+// stored for the second ends takes in some of the vector of nodes behind them, which must not be the first ends': hence
+// four vectors at least.
 LaneLayout::LaneLayout(const ClothModel& model)
   : rows_(model.rows), cols_(model.cols), vectors_a_row_(std::max(4, (model.cols + lanes - 1) / lanes))
 {
