@@ -170,7 +170,7 @@ int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes, double
   float factor = pull_as_before(nodes, target);
   int done = 0;
   while (done < allowed && (done < there_and_back || has_longer(nodes, most, Springs::taut)) &&
-         relax(nodes, target, factor))
+         relax(nodes, target, factor, done == 0 ? Springs::all : Springs::taut))
   {
     factor = 1.0F;
     ++done;
@@ -184,7 +184,7 @@ int LaneTensions::finish(LaneNodes& nodes, double max_strain, int passes)
   const float target = stretch_held(max_strain);
   const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_at_end));
   int done = 0;
-  while (done < passes && has_longer(nodes, most, Springs::all) && relax(nodes, target, 1.0F))
+  while (done < passes && has_longer(nodes, most, Springs::all) && relax(nodes, target, 1.0F, Springs::all))
   {
     ++done;
   }
@@ -232,7 +232,7 @@ float LaneTensions::pull_as_before(LaneNodes& nodes, float stretch)
   return factor;
 }
 
-bool LaneTensions::relax(LaneNodes& nodes, float stretch, float factor)
+bool LaneTensions::relax(LaneNodes& nodes, float stretch, float factor, Springs springs)
 {
   ++part_calls()[Part::strain_watch];
   tethers_.relax(nodes, stretch, factor);
@@ -247,7 +247,7 @@ bool LaneTensions::relax(LaneNodes& nodes, float stretch, float factor)
       float* const i = at + LaneNodes::place_of(run.springs.i);
       float* const j = at + LaneNodes::place_of(run.springs.j);
       const float longest = stretch * rest_lengths_[run.springs.batch];
-      if (run.is_taut || (backwards_ && run_has_longer(i, j, reduced_masses_[r], longest)))
+      if (run.is_taut || (springs == Springs::all && run_has_longer(i, j, reduced_masses_[r], longest)))
       {
         run.is_taut =
             relax_run<arithmetic.has_fused_multiply_add>(i, j, tensions_of(r), reduced_masses_[r], longest, factor);

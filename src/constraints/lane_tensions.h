@@ -52,7 +52,7 @@ private:
   static constexpr int follows_a_watch = 2;   ///< so seldom is the excess looked at while nothing falls behind
   static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
 
-  enum class Springs
+  enum class Springs  ///< that are looked at
   {
     taut,
     all
@@ -69,8 +69,8 @@ private:
   /// Pulls with the tensions of the last substep times the factor that is best for them, and returns it: tensions are
   /// multiplied by it in the pass that follows.
   float pull_as_before(LaneNodes& nodes, float stretch);
-  /// A pass. Slack springs are looked at in every second one. Returns whether any is taut.
-  bool relax(LaneNodes& nodes, float stretch, float factor);
+  /// A pass, the other way from the last. Returns whether any spring is taut.
+  bool relax(LaneNodes& nodes, float stretch, float factor, Springs springs);
   bool has_longer(const LaneNodes& nodes, float stretch, Springs springs) const;
   float* tensions_of(size_t run)
   {
