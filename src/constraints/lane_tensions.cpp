@@ -190,7 +190,7 @@ int LaneTensions::finish(LaneNodes& nodes, double max_strain, int passes)
   }
   falls_behind_ = done > 1;
   wanted_margin_ = falls_behind_ ? std::min(margin_growth * std::max(wanted_margin_, first_margin), most_margin) :
-                                   std::max(margin_decay * wanted_margin_, StrainLimit::least_margin);
+                                   std::max(margin_decay * wanted_margin_, least_margin);
   return done;
 }
 

@@ -118,8 +118,8 @@ TEST(MixedPrecision, KeepsALimitByPlainSweepsAsWell)
   EXPECT_GT(simulation.counters().limit_sweeps, 60U);
 }
 
-/// One pass a substep is the least where springs are taut; what is above it are the passes at the ends of steps.
-TEST(MixedPrecision, TakesAboutOnePassOfTheLimitASubstepWhateverTheGrid)
+/// Two passes a substep are the least where springs are taut; what is above them are those at the ends of steps.
+TEST(MixedPrecision, TakesLittleMoreThanTwoPassesOfTheLimitASubstepWhateverTheGrid)
 {
   for (const int nodes_a_side : { 24, 48 })
   {
@@ -129,8 +129,8 @@ TEST(MixedPrecision, TakesAboutOnePassOfTheLimitASubstepWhateverTheGrid)
     Simulation simulation(std::move(setup));
     ASSERT_TRUE(simulation.advance_to(180 * frame));
     const double passes = static_cast<double>(simulation.counters().limit_sweeps) / (180.0 * substeps);
-    EXPECT_GT(passes, 0.9) << nodes_a_side;
-    EXPECT_LT(passes, 2.5) << nodes_a_side;
+    EXPECT_GT(passes, 1.8) << nodes_a_side;
+    EXPECT_LT(passes, 3.5) << nodes_a_side;
   }
 }
 
@@ -138,17 +138,12 @@ TEST(MixedPrecision, TakesAboutOnePassOfTheLimitASubstepWhateverTheGrid)
 TEST(MixedPrecision, LetsASheetAtRestReachItsLimit)
 {
   SimulationSetup setup = level_sheet(16, 16, 8, Precision::mixed);
-  for (SpringBatch& batch : setup.model.springs)
-  {
-    batch.stiffness *= 0.1;
-  }
-  setup.air.viscous_damping = 3.0;
   setup.strain_limit = { 0.05, 300, LimitSolver::tensions };
   Simulation simulation(std::move(setup));
-  ASSERT_TRUE(simulation.advance_to(10.0));
+  ASSERT_TRUE(simulation.advance_to(15.0));
   const double strain = max_strain(simulation.model(), simulation.state().positions);
   EXPECT_LE(strain, kept);
-  EXPECT_GT(strain, 0.0495);
+  EXPECT_GT(strain, 0.0485);
 }
 
 /// Springs that were tightened at once, or by a single pass a substep, shook it for ever.
@@ -157,12 +152,12 @@ TEST(MixedPrecision, BringsASheetThatHangsInItsLimitToRest)
   SimulationSetup setup = level_sheet(48, 48, 12, Precision::mixed);
   setup.strain_limit = { 0.05, 300, LimitSolver::tensions };
   Simulation simulation(std::move(setup));
-  ASSERT_TRUE(simulation.advance_to(10.0));
-  for (int step = 601; step <= 720; ++step)
+  ASSERT_TRUE(simulation.advance_to(15.0));
+  for (int step = 901; step <= 1020; ++step)
   {
     ASSERT_TRUE(simulation.advance_to(step * frame));
     const Eigen::VectorXd squares = simulation.state().velocities.rowwise().squaredNorm();
-    EXPECT_LT(0.5 * simulation.model().masses.dot(squares), 3e-5);
+    EXPECT_LT(0.5 * simulation.model().masses.dot(squares), 1e-6);
   }
 }
 

@@ -40,9 +40,8 @@ public:
   /// A strain this much above max_strain, relative to it, counts as reached. What a spring is shortened by from there
   /// becomes speed, over the step: a larger tolerance throws nodes about in short steps.
   static constexpr double tolerance = 5e-4;
-  /// Where tensions hold springs below max_strain, relative to it: at less than the least their last digits would shake
-  /// springs out of the limit.
-  static constexpr double least_margin = 0.01;
+  /// Where tensions hold springs below max_strain, relative to it.
+  static constexpr double least_margin = 5e-4;
   static constexpr double most_margin = 0.15;
   static constexpr double margin_speed = 0.3;  ///< 1/s, at most: springs that are tightened faster shake the sheet
 
