@@ -162,7 +162,7 @@ void LaneTensions::prepare(const LaneNodes& nodes, const std::vector<int>& held)
 
 int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes, double h)
 {
-  margin_ += std::clamp(wanted_margin_ - margin_, -StrainLimit::margin_speed * h, StrainLimit::margin_speed * h);
+  margin_ += std::clamp(wanted_margin_ - margin_, -margin_speed * h, margin_speed * h);
   const float target = stretch_held(max_strain);
   const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_between));
   const bool is_watched = falls_behind_ || ++follows_ % follows_a_watch == 0;

@@ -45,6 +45,7 @@ private:
   static constexpr double most_margin = 0.3;
   static constexpr double margin_growth = 1.5;  ///< a step
   static constexpr double margin_decay = 0.99;
+  static constexpr double margin_speed = 0.3;  ///< 1/s, at most: springs that are tightened faster shake the sheet
   /// The excess that there may be, relative to max_strain. Rounding of the positions takes its part of
   /// StrainLimit::tolerance.
   static constexpr double excess_between = 0.05;

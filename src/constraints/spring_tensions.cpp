@@ -217,7 +217,7 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
   reached_ = report.reached;
   wanted_margin_ = std::clamp(wanted_margin_ * (report.sweeps > few ? margin_growth : margin_decay),
                               StrainLimit::least_margin, StrainLimit::most_margin);
-  margin_ += std::clamp(wanted_margin_ - margin_, -StrainLimit::margin_speed * h, StrainLimit::margin_speed * h);
+  margin_ += std::clamp(wanted_margin_ - margin_, -margin_speed * h, margin_speed * h);
   if (shifts != nullptr)
   {
     add_tensions_to(columns_of(*shifts));

@@ -42,6 +42,7 @@ private:
   /// not. Within a step it stays the same.
   static constexpr double margin_growth = 1.5;
   static constexpr double margin_decay = 0.98;
+  static constexpr double margin_speed = 1.0;  ///< 1/s, at most: springs that are tightened faster shake the sheet
   static constexpr int few = 2;
   /// The most by which tensions grow before a step's passes: not at all where the last step did not reach the limit.
   static constexpr double most_growth = 2.0;

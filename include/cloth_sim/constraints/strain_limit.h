@@ -43,7 +43,6 @@ public:
   /// Where tensions hold springs below max_strain, relative to it.
   static constexpr double least_margin = 5e-4;
   static constexpr double most_margin = 0.15;
-  static constexpr double margin_speed = 0.3;  ///< 1/s, at most: springs that are tightened faster shake the sheet
 
   StrainLimit(const ClothModel& model, const StrainLimitProperties& properties);
   StrainLimit(StrainLimit&&) noexcept;
