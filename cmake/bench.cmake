@@ -11,6 +11,12 @@ add_executable(stability_map EXCLUDE_FROM_ALL
 )
 target_link_libraries(stability_map cloth_core)
 
+add_executable(precision_error EXCLUDE_FROM_ALL
+  bench/level_sheet.cpp
+  bench/precision_error.cpp
+)
+target_link_libraries(precision_error cloth_core)
+
 find_package(benchmark QUIET)
 if(benchmark_FOUND)
   add_executable(linear_solver EXCLUDE_FROM_ALL

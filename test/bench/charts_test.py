@@ -17,6 +17,7 @@ matplotlib.use("Agg")
 from matplotlib.colors import to_hex  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 
+import plot_precision_error  # noqa: E402
 from work_precision import axes as chart  # noqa: E402
 from work_precision import failures, rankings, solvers  # noqa: E402
 
@@ -138,6 +139,39 @@ class Lines(unittest.TestCase):
                        if mark.get_ydata()[0] == failures.failing(failed).index("velocity_verlet"))
         for cost, step in zip(costs, synthetic.STEPS):
             self.assertAlmostEqual(cost / (verlet.cost / step), 1.0, places=9)
+
+
+class ErrorsOfBothPrecisions(unittest.TestCase):
+    ROWS = {16: [(2e-3, 4e-3, 5e-3, 3e-4), (1e-3, 1e-3, 2e-3, 1e-4)], 64: [(2e-3, 2e-2, 3e-2, 1e-3)]}
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = os.path.join(folder.name, "errors.csv")
+        with open(self.path, "w", encoding="utf-8") as file:
+            file.write("nodes_a_side,substep,double,mixed,apart\n")
+            for nodes, rows in self.ROWS.items():
+                for row in rows:
+                    file.write("{},{},{},{},{}\n".format(nodes, *row))
+
+    def test_are_all_drawn(self):
+        sheets = plot_precision_error.read_errors(self.path)
+        self.assertEqual(list(sheets), list(self.ROWS))
+        for nodes, rows in sheets.items():
+            axes = Figure().subplots()
+            plot_precision_error.draw_errors(axes, rows)
+            drawn = {line.get_label(): list(zip(*line.get_data())) for line in axes.get_lines()}
+            for label, column in (("in doubles", 1), ("mixed", 2), ("from each other", 3)):
+                self.assertEqual(drawn[label], [(row[0], row[column]) for row in self.ROWS[nodes]])
+
+    def test_give_the_same_picture_again(self):
+        pictures = []
+        for name in ("first", "second"):
+            out = os.path.join(os.path.dirname(self.path), name)
+            plot_precision_error.draw(self.path, out)
+            with open(out + ".png", "rb") as file:
+                pictures.append(file.read())
+        self.assertEqual(pictures[0], pictures[1])
 
 
 if __name__ == "__main__":
