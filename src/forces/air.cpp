@@ -153,6 +153,8 @@ void Air::accelerate_implicitly(const ClothModel& model, double time, const Vect
   part_calls()[Part::viscous_damping] += properties_.viscous_damping > 0.0 ? counted(nodes) : 0;
   const Eigen::Vector3d wind = wind_at(time);
   in_widest_vectors([this, &model, h, nodes, &forces, &velocities, coupled, wind](auto) {
+    const int end = nodes.end;
+    const double step = h;
     const double damping = properties_.viscous_damping;
     const double coupling = properties_.wind_coupling;
     const double* const masses = model.masses.data();
@@ -169,36 +171,20 @@ void Air::accelerate_implicitly(const ClothModel& model, double time, const Vect
       a_z[i] = z;
     };
     const auto add_to_velocity = [=](int i, double x, double y, double z) {
-      v_x[i] += h * x;
-      v_y[i] += h * y;
-      v_z[i] += h * z;
+      v_x[i] += step * x;
+      v_y[i] += step * y;
+      v_z[i] += step * z;
     };
-    if (damping > 0.0)
-    {
 #pragma GCC ivdep
-      for (int i = nodes.begin; i < nodes.end; ++i)
-      {
-        const double c = damping * areas[i];
-        const double inverse = 1.0 / (masses[i] + h * c);
-        const double x = inverse * (a_x[i] - c * v_x[i]);
-        const double y = inverse * (a_y[i] - c * v_y[i]);
-        const double z = inverse * (a_z[i] - c * v_z[i]);
-        accelerate(i, x, y, z);
-        add_to_velocity(i, x, y, z);
-      }
-    }
-    else
+    for (int i = nodes.begin; i < end; ++i)
     {
-#pragma GCC ivdep
-      for (int i = nodes.begin; i < nodes.end; ++i)
-      {
-        const double inverse = 1.0 / masses[i];
-        const double x = inverse * a_x[i];
-        const double y = inverse * a_y[i];
-        const double z = inverse * a_z[i];
-        accelerate(i, x, y, z);
-        add_to_velocity(i, x, y, z);
-      }
+      const double c = damping * areas[i];
+      const double inverse = 1.0 / (masses[i] + step * c);
+      const double x = inverse * (a_x[i] - c * v_x[i]);
+      const double y = inverse * (a_y[i] - c * v_y[i]);
+      const double z = inverse * (a_z[i] - c * v_z[i]);
+      accelerate(i, x, y, z);
+      add_to_velocity(i, x, y, z);
     }
     if (!coupled)
     {
@@ -208,11 +194,11 @@ void Air::accelerate_implicitly(const ClothModel& model, double time, const Vect
     const double* const n_y = normals_.col(1).data();
     const double* const n_z = normals_.col(2).data();
 #pragma GCC ivdep
-    for (int i = nodes.begin; i < nodes.end; ++i)
+    for (int i = nodes.begin; i < end; ++i)
     {
       const double c = coupling * areas[i];
       const double speed = n_x[i] * (wind[0] - v_x[i]) + n_y[i] * (wind[1] - v_y[i]) + n_z[i] * (wind[2] - v_z[i]);
-      const double missing = c * speed / (masses[i] + h * (damping * areas[i] + c));
+      const double missing = c * speed / (masses[i] + step * (damping * areas[i] + c));
       accelerate(i, a_x[i] + missing * n_x[i], a_y[i] + missing * n_y[i], a_z[i] + missing * n_z[i]);
       add_to_velocity(i, missing * n_x[i], missing * n_y[i], missing * n_z[i]);
     }
