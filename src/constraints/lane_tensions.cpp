@@ -93,18 +93,7 @@ void add_run_shifts(const float* i, const float* j, const float* tensions, float
     const float square = p_x * p_x + p_y * p_y + p_z * p_z;
     parabola.rise[k] += p_x * l_x + p_y * l_y + p_z * l_z - longest * square * inverse_root<fused>(square);
     parabola.curvature[k] += float(DualParabola<float>::compliance) * (w_i + w_j) * square;
-    const float x_i = shift_i[lane_vector::x + k] + w_i * p_x;
-    const float y_i = shift_i[lane_vector::y + k] + w_i * p_y;
-    const float z_i = shift_i[lane_vector::z + k] + w_i * p_z;
-    const float x_j = shift_j[lane_vector::x + k] - w_j * p_x;
-    const float y_j = shift_j[lane_vector::y + k] - w_j * p_y;
-    const float z_j = shift_j[lane_vector::z + k] - w_j * p_z;
-    shift_i[lane_vector::x + k] = x_i;
-    shift_i[lane_vector::y + k] = y_i;
-    shift_i[lane_vector::z + k] = z_i;
-    shift_j[lane_vector::x + k] = x_j;
-    shift_j[lane_vector::y + k] = y_j;
-    shift_j[lane_vector::z + k] = z_j;
+    add_to_ends(shift_i, shift_j, k, p_x, p_y, p_z, w_i, w_j);
   }
 }
 

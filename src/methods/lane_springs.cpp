@@ -41,18 +41,7 @@ void correct_run(float* i, float* j, const Gains<float>& gains, const float* yie
     j[way_z + k] = way_z_j - part_j * l_z;
     if constexpr (records)
     {
-      const float x_i = pull_i[lane_vector::x + k] + part * l_x;
-      const float y_i = pull_i[lane_vector::y + k] + part * l_y;
-      const float z_i = pull_i[lane_vector::z + k] + part * l_z;
-      const float x_j = pull_j[lane_vector::x + k] - part * l_x;
-      const float y_j = pull_j[lane_vector::y + k] - part * l_y;
-      const float z_j = pull_j[lane_vector::z + k] - part * l_z;
-      pull_i[lane_vector::x + k] = x_i;
-      pull_i[lane_vector::y + k] = y_i;
-      pull_i[lane_vector::z + k] = z_i;
-      pull_j[lane_vector::x + k] = x_j;
-      pull_j[lane_vector::y + k] = y_j;
-      pull_j[lane_vector::z + k] = z_j;
+      add_to_ends(pull_i, pull_j, k, l_x, l_y, l_z, part, part);
     }
   }
 }

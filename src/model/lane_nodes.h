@@ -73,6 +73,24 @@ inline constexpr int z = 2 * lanes;
 
 using LaneVectors = LaneBlocks<3>;
 
+/// Adds a vector of spring k, times a number for each end, to what `i` has at its first end, and takes it from what `j`
+/// has at its second: all is read before anything is written, as the two may lie in one block.
+inline void add_to_ends(float* i, float* j, int k, float x, float y, float z, float times_i, float times_j)
+{
+  const float x_i = i[lane_vector::x + k] + times_i * x;
+  const float y_i = i[lane_vector::y + k] + times_i * y;
+  const float z_i = i[lane_vector::z + k] + times_i * z;
+  const float x_j = j[lane_vector::x + k] - times_j * x;
+  const float y_j = j[lane_vector::y + k] - times_j * y;
+  const float z_j = j[lane_vector::z + k] - times_j * z;
+  i[lane_vector::x + k] = x_i;
+  i[lane_vector::y + k] = y_i;
+  i[lane_vector::z + k] = z_i;
+  j[lane_vector::x + k] = x_j;
+  j[lane_vector::y + k] = y_j;
+  j[lane_vector::z + k] = z_j;
+}
+
 /// A vector of springs: the numbers of their first ends, and of the second.
 struct LaneRun
 {
