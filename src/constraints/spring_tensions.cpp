@@ -202,20 +202,22 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
   StrainLimit::Report report;
   report.moved = pull_as_before(w, columns);
   Lengths longest = find_taut(w, columns);
-  for (bool goes_on = report.moved || longest != Lengths::slack; goes_on; goes_on = longest == Lengths::too_long)
+  bool goes_on = report.moved || longest != Lengths::slack;
+  while (goes_on)
   {
     if (report.sweeps >= passes)
     {
-      report.reached = false;
+      report.reached = longest != Lengths::too_long;
       break;
     }
     relax_taut(report.sweeps % 2 == 1, w, columns);
     report.moved = true;
     ++report.sweeps;
     longest = find_taut(w, columns);
+    goes_on = longest == Lengths::too_long || (longest == Lengths::taut && report.sweeps < there_and_back);
   }
   reached_ = report.reached;
-  wanted_margin_ = std::clamp(wanted_margin_ * (report.sweeps > few ? margin_growth : margin_decay),
+  wanted_margin_ = std::clamp(wanted_margin_ * (report.sweeps > there_and_back ? margin_growth : margin_decay),
                               StrainLimit::least_margin, StrainLimit::most_margin);
   margin_ += std::clamp(wanted_margin_ - margin_, -margin_speed * h, margin_speed * h);
   if (shifts != nullptr)

@@ -38,12 +38,13 @@ public:
   void go_on_from(const Shortening& before) override;
 
 private:
-  /// The margin (StrainLimit::least_margin) grows while steps need more passes than `few` and dies away while they do
+  /// Made in every step in which springs are taut: one alone leaves a sheet restless.
+  static constexpr int there_and_back = 2;
+  /// The margin (StrainLimit::least_margin) grows while steps need more passes than these and dies away while they do
   /// not. Within a step it stays the same.
   static constexpr double margin_growth = 1.5;
   static constexpr double margin_decay = 0.98;
   static constexpr double margin_speed = 1.0;  ///< 1/s, at most: springs that are tightened faster shake the sheet
-  static constexpr int few = 2;
   /// The most by which tensions grow before a step's passes: not at all where the last step did not reach the limit.
   static constexpr double most_growth = 2.0;
   static constexpr double most_growth_of_a_failure = 1.0;

@@ -1,5 +1,7 @@
 #include "cloth_sim/simulation/stability_watch.h"
 
+#include <algorithm>
+
 #include "cloth_sim/methods/spectrum.h"
 
 namespace cloth
@@ -11,6 +13,22 @@ constexpr std::uint64_t steps_between_looks = 64;
 constexpr std::uint64_t steps_between_spectra = 512;
 constexpr double longest_age = 0.2;  // s
 constexpr double allowed_change = 1.05;
+constexpr double allowed_turn = 0.05;
+
+/// Whether any spring, as a vector, has changed by more than allowed_turn of its length at rest. Stiffness is a
+/// function of these vectors.
+bool has_changed_shape(const ClothModel& model, const Vectors& before, const Vectors& now)
+{
+  return std::any_of(model.springs.begin(), model.springs.end(), [&](const SpringBatch& batch) {
+    const double allowed = allowed_turn * batch.rest_length;
+    bool found = false;
+    for_each_spring(batch, [&](int i, int j) {
+      const auto change = (now.row(j) - now.row(i)) - (before.row(j) - before.row(i));
+      found = found || change.squaredNorm() > allowed * allowed;
+    });
+    return found;
+  });
+}
 
 }  // namespace
 
@@ -25,9 +43,11 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
   const double bound = stiffness_bound(dynamics, state.positions);
   const bool has_stiffened = bound > allowed_change * bound_;
   const bool has_softened = allowed_change * bound < bound_;
-  const bool is_old = state.time - time_ >= longest_age;
+  const bool is_old =
+      known_ && state.time - time_ >= longest_age && has_changed_shape(dynamics.model(), positions_, state.positions);
   const bool may_be_long = steps - worked_out_at_ >= steps_between_spectra;
-  if (known_ && !has_stiffened && !may_be_long && (is_of_bound_ ? !has_softened : !is_old))
+  const bool is_outdated = has_stiffened || (is_of_bound_ ? has_softened || may_be_long : is_old);
+  if (known_ && !is_outdated)
   {
     return limit_;
   }
@@ -37,6 +57,7 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
   known_ = true;
   bound_ = bound;
   time_ = state.time;
+  positions_ = state.positions;
   worked_out_at_ = steps;
   return limit_;
 }

@@ -95,5 +95,20 @@ TEST_F(StabilityWatchTest, IsWorkedOutAnewWhenItIsOld)
   EXPECT_LE(limit_after(64), exact_limit());
 }
 
+/// Steps that change shake a sheet that hangs in its strain limit.
+TEST_F(StabilityWatchTest, StaysWhileNoSpringChangesMuch)
+{
+  stretch(1.02);
+  const double before = limit_after(0);
+  stretch(1.01);
+  for (std::uint64_t look = 1; look <= 20; ++look)
+  {
+    state_.time += 0.1;
+    EXPECT_EQ(limit_after(64 * look), before);
+  }
+  stretch(1.04);
+  EXPECT_NE(limit_after(64 * 21), before);
+}
+
 }  // namespace
 }  // namespace cloth
