@@ -163,6 +163,18 @@ TEST(Sleep, WaitsForTheEndOfASwingInTheHoldOfTheStrainLimit)
   }
 }
 
+/// Steps that changed their length, and tensions that were not passed over often enough, shook it for ever.
+TEST(Sleep, ComesToASheetThatHangsInItsStrainLimit)
+{
+  SceneParams scene = shipped_scene("hanging_sheet");
+  scene.sheet.rows = scene.sheet.cols = 24;
+  scene.strain_limit.max_strain = 0.05;
+  Simulation simulation = simulation_of(scene);
+  run_until_asleep(simulation, 30.0);
+  EXPECT_TRUE(simulation.asleep_since());
+  EXPECT_GT(max_strain(simulation.model(), simulation.state().positions), 0.99 * scene.strain_limit.max_strain);
+}
+
 TEST(Sleep, DoesNotTakeWhatCreepsForRest)
 {
   for (const double max_strain : { 0.0, 0.1 })
