@@ -167,7 +167,6 @@ TEST(Sleep, WaitsForTheEndOfASwingInTheHoldOfTheStrainLimit)
 TEST(Sleep, ComesToASheetThatHangsInItsStrainLimit)
 {
   SceneParams scene = shipped_scene("hanging_sheet");
-  scene.sheet.rows = scene.sheet.cols = 24;
   scene.strain_limit.max_strain = 0.05;
   Simulation simulation = simulation_of(scene);
   run_until_asleep(simulation, 30.0);
