@@ -40,8 +40,8 @@ public:
 private:
   /// Relative to max_strain. The margin is the first to begin with, and anew when the sheet falls behind.
   static constexpr double first_margin = 0.15;
-  static constexpr double least_margin =
-      0.01;  ///< at less, single precision shakes springs of a sheet at rest out of it
+  /// At less, single precision shakes springs of a sheet at rest out of it.
+  static constexpr double least_margin = 0.01;
   static constexpr double most_margin = 0.3;
   static constexpr double margin_growth = 1.5;  ///< a step
   static constexpr double margin_decay = 0.99;

@@ -14,7 +14,7 @@ namespace cloth
 /// How the springs that are too long are shortened.
 enum class LimitSolver
 {
-  tensions,     ///< the shortest correction, from the tensions of the step before: mostly a pass or two
+  tensions,     ///< the shortest correction, from the tensions of the step before: mostly two passes
   plain_sweeps  ///< spring after spring, as Provot describes it: more passes than the grid is wide
 };
 
