@@ -1,6 +1,7 @@
 #include "lane_tensions.h"
 
 #include <algorithm>
+#include <array>
 
 #include "cloth_sim/model/inverse_root.h"
 #include "cloth_sim/model/part_calls.h"
@@ -110,6 +111,13 @@ void add_masses(const float* nodes, const float* shifts, DualParabola<float>& pa
   }
 }
 
+template <typename Number>
+Number* ways_of(Number* nodes, int vector)
+{
+  static_assert(lane_vector::y - lane_vector::x == lane_node::way_y - lane_node::way_x);
+  return nodes + vector * LaneNodes::size + lane_node::way_x;
+}
+
 void shift(float* nodes, const float* shifts, float factor)
 {
 #pragma GCC ivdep
@@ -136,7 +144,10 @@ LaneTensions::LaneTensions(const ClothModel& model, const LaneLayout& layout)
     runs_.push_back({ LaneRun(run) });
   }
   tensions_.set_zero(static_cast<int>(runs_.size()) * lanes);
+  last_tensions_ = tensions_;
   shifts_.set_zero(layout.nodes());
+  last_ways_ = shifts_;
+  begins_ = shifts_;
 }
 
 void LaneTensions::prepare(const LaneNodes& nodes, const std::vector<int>& held)
@@ -158,9 +169,13 @@ int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes, double
   const int allowed = std::min(passes, is_watched ? most_passes_between : there_and_back);
   float factor = pull_as_before(nodes, target);
   int done = 0;
-  while (done < allowed && (done < there_and_back || has_longer(nodes, most, Springs::taut)) &&
-         relax(nodes, target, factor, done == 0 ? Springs::all : Springs::taut))
+  while (done < allowed && (done < there_and_back || has_longer(nodes, most, Springs::taut)))
   {
+    give_momentum(nodes, done);
+    if (!relax(nodes, target, factor, done == 0 ? Springs::all : Springs::taut))
+    {
+      break;
+    }
     factor = 1.0F;
     ++done;
   }
@@ -173,8 +188,10 @@ int LaneTensions::finish(LaneNodes& nodes, double max_strain, int passes)
   const float target = stretch_held(max_strain);
   const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_at_end));
   int done = 0;
-  while (done < passes && has_longer(nodes, most, Springs::all) && relax(nodes, target, 1.0F, Springs::all))
+  while (done < passes && has_longer(nodes, most, Springs::all))
   {
+    give_momentum(nodes, done);
+    relax(nodes, target, 1.0F, Springs::all);
     ++done;
   }
   falls_behind_ = done > 1;
@@ -246,6 +263,60 @@ bool LaneTensions::relax(LaneNodes& nodes, float stretch, float factor, Springs 
   });
   part_calls()[Part::strain_limit] += is_taut ? 1 : 0;
   return is_taut;
+}
+
+void LaneTensions::give_momentum(LaneNodes& nodes, int passes)
+{
+  if (momentum_.is_to_begin(passes))
+  {
+    begin_momentum(nodes);
+  }
+  else if (momentum_.is_to_carry_on(passes))
+  {
+    carry_on_all(nodes);
+  }
+}
+
+void LaneTensions::begin_momentum(const LaneNodes& nodes)
+{
+  momentum_.begin();
+  for (int v = 0; v < vectors_; ++v)
+  {
+    std::copy_n(ways_of(nodes.data(), v), LaneVectors::size, last_ways_.data() + v * LaneVectors::size);
+  }
+  begins_ = last_ways_;
+  for (size_t r = 0; r < runs_.size(); ++r)
+  {
+    runs_[r].was_taut = runs_[r].is_taut;
+    std::copy_n(tensions_of(r), runs_[r].is_taut ? LaneVectors::size : 0, last_tensions_of(r));
+  }
+  tethers_.begin_momentum();
+}
+
+void LaneTensions::carry_on_all(LaneNodes& nodes)
+{
+  float part = 0.0F;
+  in_widest_vectors([&](auto) {
+    for (int v = 0; v < vectors_; ++v)
+    {
+      const int first = v * LaneVectors::size;
+      momentum_.compare(ways_of(nodes.data(), v), last_ways_.data() + first, begins_.data() + first, LaneVectors::size);
+    }
+    part = momentum_.next_part();
+    for (int v = 0; v < vectors_; ++v)
+    {
+      const int first = v * LaneVectors::size;
+      float* const ways = ways_of(nodes.data(), v);
+      carry_on(ways, last_ways_.data() + first, LaneVectors::size, part);
+      std::copy_n(ways, LaneVectors::size, begins_.data() + first);
+    }
+    for (size_t r = 0; r < runs_.size(); ++r)
+    {
+      carry_on(runs_[r].is_taut, runs_[r].was_taut, std::array{ tensions_of(r) }, std::array{ last_tensions_of(r) },
+               LaneVectors::size, part);
+    }
+  });
+  tethers_.carry_on_all(part);
 }
 
 bool LaneTensions::has_longer(const LaneNodes& nodes, float stretch, Springs springs) const

@@ -10,6 +10,7 @@
 #include "../model/spring_layout.h"
 #include "dual_parabola.h"
 #include "lane_tethers.h"
+#include "momentum.h"
 
 namespace cloth
 {
@@ -51,7 +52,7 @@ private:
   static constexpr double excess_between = 0.05;
   static constexpr double excess_at_end = 0.5 * StrainLimit::tolerance;
   static constexpr int there_and_back = 2;
-  static constexpr int most_passes_between = 10;
+  static constexpr int most_passes_between = 24;
   static constexpr int follows_a_watch = 2;   ///< so seldom is the excess looked at while nothing falls behind
   static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
 
@@ -64,7 +65,8 @@ private:
   struct Run
   {
     LaneRun springs;
-    bool is_taut = false;  ///< some spring has a tension
+    bool is_taut = false;   ///< some spring has a tension
+    bool was_taut = false;  ///< likewise, after the iteration before
   };
 
   /// Of springs at the margin, in lengths at rest.
@@ -74,10 +76,18 @@ private:
   float pull_as_before(LaneNodes& nodes, float stretch);
   /// A pass, the other way from the last. Returns whether any spring is taut.
   bool relax(LaneNodes& nodes, float stretch, float factor, Springs springs);
+  /// To be called before each pass, so many having been made.
+  void give_momentum(LaneNodes& nodes, int passes);
+  void begin_momentum(const LaneNodes& nodes);
+  void carry_on_all(LaneNodes& nodes);
   bool has_longer(const LaneNodes& nodes, float stretch, Springs springs) const;
   float* tensions_of(size_t run)
   {
     return tensions_.data() + run * LaneVectors::size;
+  }
+  float* last_tensions_of(size_t run)
+  {
+    return last_tensions_.data() + run * LaneVectors::size;
   }
   const float* tensions_of(size_t run) const
   {
@@ -96,6 +106,10 @@ private:
   LaneVectors tensions_;      ///< of every run, kg m
   LaneTable reduced_masses_;  ///< of every run's springs 1/(1/m_i + 1/m_j), kg; 0: none, or held at both ends
   LaneVectors shifts_;        ///< what the tensions of the last substep ask for, m
+  Momentum<float> momentum_;
+  LaneVectors last_tensions_;  ///< after the iteration before; of runs that were taut then
+  LaneVectors last_ways_;      ///< of nodes, likewise
+  LaneVectors begins_;         ///< ways that the last iteration set out from
 };
 
 }  // namespace cloth

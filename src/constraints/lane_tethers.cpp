@@ -122,6 +122,8 @@ void LaneTethers::hold(const std::vector<int>& held)
     }
     tether.tensions.set_zero(layout_.nodes());
     tether.is_taut.assign(static_cast<size_t>(layout_.nodes() / lanes), 0);
+    tether.last_tensions = tether.tensions;
+    tether.was_taut = tether.is_taut;
     tethers_.push_back(std::move(tether));
   }
 }
@@ -164,6 +166,29 @@ void LaneTethers::relax(LaneNodes& nodes, float stretch, float factor)
               some, anchor, lengths, stretch, tether.tensions.data() + v * LaneVectors::size, factor);
           is_taut = stays_taut ? 1 : 0;
         }
+      }
+    }
+  });
+}
+
+void LaneTethers::begin_momentum()
+{
+  for (Tether& tether : tethers_)
+  {
+    tether.last_tensions = tether.tensions;
+    tether.was_taut = tether.is_taut;
+  }
+}
+
+void LaneTethers::carry_on_all(float part)
+{
+  in_widest_vectors([&](auto) {
+    for (Tether& tether : tethers_)
+    {
+      for (size_t v = 0; v < tether.is_taut.size(); ++v)
+      {
+        carry_on(tether.is_taut[v], tether.was_taut[v], std::array{ tether.tensions.data() + v * LaneVectors::size },
+                 std::array{ tether.last_tensions.data() + v * LaneVectors::size }, LaneVectors::size, part);
       }
     }
   });

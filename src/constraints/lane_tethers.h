@@ -7,6 +7,7 @@
 #include "../model/lane_nodes.h"
 #include "../model/spring_layout.h"
 #include "dual_parabola.h"
+#include "momentum.h"
 #include "spring_ways.h"
 
 namespace cloth
@@ -32,6 +33,10 @@ public:
   /// A pass. Tensions are multiplied by `factor` before.
   void relax(LaneNodes& nodes, float stretch, float factor);
 
+  void begin_momentum();
+  /// Adds `part` of their last change to the tensions.
+  void carry_on_all(float part);
+
   /// Adds the pull of the tensions on both ends, kg m.
   void add_tensions_to(LaneVectors& pulls) const;
 
@@ -45,6 +50,8 @@ private:
     AlignedNumbers<float> lengths;  ///< from all others, m; 0: none
     LaneVectors tensions;
     std::vector<char> is_taut;  ///< of every vector of nodes: some have a tension
+    LaneVectors last_tensions;  ///< after the iteration before; of vectors that were taut then
+    std::vector<char> was_taut;
   };
 
   const LaneLayout layout_;

@@ -157,7 +157,10 @@ SpringTensions::SpringTensions(const ClothModel& model)
     first += (run.n + lanes_of<double> - 1) / lanes_of<double> * lanes_of<double>;
   }
   tensions_.set_zero(first);
+  last_tensions_.set_zero(first);
   shifts_.set_zero(nodes_);
+  last_positions_.set_zero(nodes_);
+  begins_.set_zero(nodes_);
 }
 
 void SpringTensions::go_on_from(const Shortening& before)
@@ -209,6 +212,14 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
     {
       report.reached = longest != Lengths::too_long;
       break;
+    }
+    if (momentum_.is_to_begin(report.sweeps))
+    {
+      begin_momentum(columns);
+    }
+    else if (momentum_.is_to_carry_on(report.sweeps))
+    {
+      carry_on_all(columns);
     }
     relax_taut(report.sweeps % 2 == 1, w, columns);
     report.moved = true;
@@ -335,6 +346,59 @@ void SpringTensions::relax_run(Run& run, const double* inverse_masses, const Col
            [&](auto&& is_chosen) { run.is_taut |= relax<fused>(row, tensions, longest, is_chosen); });
   mark_moved(run.springs.node, run.springs.n);
   mark_moved(run.springs.node + run.springs.offset, run.springs.n);
+}
+
+void SpringTensions::begin_momentum(const Columns<double>& positions)
+{
+  momentum_.begin();
+  carried_on_at_ = now_;
+  for (size_t d = 0; d < 3; ++d)
+  {
+    std::copy_n(positions[d], nodes_, last_positions_.from(0)[d]);
+    std::copy_n(positions[d], nodes_, begins_.from(0)[d]);
+  }
+  for (Run& run : runs_)
+  {
+    run.was_taut = run.is_taut;
+    for (size_t d = 0; run.is_taut && d < 3; ++d)
+    {
+      std::copy_n(tensions_.from(run.first)[d], run.springs.n, last_tensions_.from(run.first)[d]);
+    }
+  }
+}
+
+void SpringTensions::carry_on_all(const Columns<double>& positions)
+{
+  const Columns<double> last = last_positions_.from(0);
+  const Columns<double> begins = begins_.from(0);
+  const auto for_moved_nodes = [&](auto&& work) {
+    for (size_t mark = 0; mark * mark_size < static_cast<size_t>(nodes_); ++mark)
+    {
+      const int first = static_cast<int>(mark) * mark_size;
+      for (size_t d = 0; moved_at_[mark] >= carried_on_at_ && d < 3; ++d)
+      {
+        work(mark, positions[d] + first, last[d] + first, begins[d] + first, std::min(mark_size, nodes_ - first));
+      }
+    }
+  };
+  ++now_;
+  in_widest_vectors([&](auto) {
+    for_moved_nodes([this](size_t, const double* x, const double* last_x, const double* begin, int n) {
+      momentum_.compare(x, last_x, begin, n);
+    });
+    const double part = momentum_.next_part();
+    for_moved_nodes([this, part](size_t mark, double* x, double* last_x, double* begin, int n) {
+      carry_on(x, last_x, n, part);
+      std::copy_n(x, n, begin);
+      moved_at_[mark] = now_;
+    });
+    for (Run& run : runs_)
+    {
+      carry_on(run.is_taut, run.was_taut, tensions_.from(run.first), last_tensions_.from(run.first), run.springs.n,
+               part);
+    }
+  });
+  carried_on_at_ = now_;
 }
 
 void SpringTensions::add_tensions_to(const Columns<double>& shifts) const

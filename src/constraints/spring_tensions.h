@@ -7,6 +7,7 @@
 #include "../model/aligned_vectors.h"
 #include "../model/spring_layout.h"
 #include "dual_parabola.h"
+#include "momentum.h"
 #include "shortening.h"
 
 namespace cloth
@@ -27,7 +28,7 @@ namespace cloth
 /// without tension is Provot's shortening of it, and what it did too much is given back later. The tensions of the last
 /// step are the first guess at the next one's, as p ~ h^2 times a force that changes slowly; most of the work is done
 /// by then, whatever the grid. As vectors they keep the guess stable: it is a correction that was right, not a force
-/// along springs that have turned.
+/// along springs that have turned. Where two passes are not enough, the others have momentum.
 class SpringTensions : public Shortening
 {
 public:
@@ -63,6 +64,7 @@ private:
     SpringRun springs;
     int first;              ///< of its tensions
     bool is_taut = false;   ///< some spring has a tension, or was found taut
+    bool was_taut = false;  ///< likewise, after the iteration before
     long found_slack = -1;  ///< when all of its springs were
   };
 
@@ -73,6 +75,9 @@ private:
   void relax_taut(bool backwards, const double* inverse_masses, const Columns<double>& positions);
   template <bool fused>
   void relax_run(Run& run, const double* inverse_masses, const Columns<double>& positions);
+  void begin_momentum(const Columns<double>& positions);
+  /// Carries positions and tensions on along what the last iteration changed.
+  void carry_on_all(const Columns<double>& positions);
   void add_tensions_to(const Columns<double>& shifts) const;
   void mark_moved(int node, int n);
   long last_move(int node, int n) const;
@@ -87,7 +92,12 @@ private:
   AlignedVectors<double> tensions_;  ///< one for each spring, kg m
   AlignedVectors<double> shifts_;    ///< what the tensions of the last step ask for, m
   std::vector<long> moved_at_;       ///< for each mark_size nodes
-  long now_ = 0;                     ///< counts passes
+  long now_ = 0;                     ///< counts what moves nodes
+  Momentum<double> momentum_;
+  AlignedVectors<double> last_tensions_;  ///< after the iteration before; of runs that were taut then
+  AlignedVectors<double> last_positions_;
+  AlignedVectors<double> begins_;  ///< positions that the last iteration set out from
+  long carried_on_at_ = 0;
 };
 
 }  // namespace cloth

@@ -33,7 +33,8 @@ public:
   /// Where the node of this number in a LaneLayout has its first number; the others are a vector further on each.
   static int place_of(int node)
   {
-    return node / lanes * size + node % lanes;
+    const int first_of_block = node & -lanes;
+    return numbers * first_of_block + (node - first_of_block);
   }
 
   float* data()

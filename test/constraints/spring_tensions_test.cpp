@@ -56,6 +56,27 @@ TEST(SpringTensions, NeedFewPassesThatHardlyGrowWithTheGrid)
   EXPECT_GT(passes_a_step(48, 8e-4 / 3.0, LimitSolver::plain_sweeps), 5.0 * fine);
 }
 
+/// Passes that a chain which is stretched all along takes at its first step, when no tensions are known.
+int passes_from_nothing(int nodes)
+{
+  const ClothModel model = make_sheet(small_sheet(nodes, 1));
+  ClothState state{ 1.2 * model.rest_positions, Vectors::Zero(nodes, 3), 0.0 };
+  StrainLimit strain_limit(model, { limit, 100000, LimitSolver::tensions });
+  const StrainLimit::Report report = strain_limit.apply(model, Pins(nodes), 1.0, state);
+  EXPECT_TRUE(report.reached);
+  EXPECT_LE(max_strain(model, state.positions), limit * (1.0 + StrainLimit::tolerance) + 1e-12);
+  return report.sweeps;
+}
+
+/// Passes alone, without momentum, take four times as many for a chain twice as long.
+TEST(SpringTensions, FromNothingTakePassesInProportionToTheLengthOfAChain)
+{
+  const int passes = passes_from_nothing(17);
+  EXPECT_GT(passes, 2);
+  EXPECT_LT(passes_from_nothing(33), 2.7 * passes);
+  EXPECT_LT(passes_from_nothing(65), 2.7 * 2.7 * passes);
+}
+
 TEST(SpringTensions, KeepTheLimitAtEveryStepOfASwing)
 {
   Simulation simulation = swinging_sheet(24, 5e-4, LimitSolver::tensions, 10000);
