@@ -73,6 +73,7 @@ cloth_add_test(planning
   test/planning/planner_test.cpp
   test/planning/started_scene_test.cpp
   test/planning/step_costs_test.cpp
+  test/planning/trials_test.cpp
 )
 target_include_directories(test_planning PRIVATE src/planning)
 cloth_add_test(scene

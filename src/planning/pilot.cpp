@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth_sim/forces/springs.h"
 #include "cloth_sim/scene/plan.h"
 
 namespace cloth
@@ -48,6 +49,10 @@ Motion motion_of(const StartedScene& scene, const Stepping& stepping, double mos
       break;
     }
     motion.positions.push_back(simulation.state().positions);
+    if (const double held = simulation.strain_limit().held_strain(); held > 0.0)
+    {
+      motion.excess = std::max(motion.excess, max_strain(simulation.model(), motion.positions.back()) / held - 1.0);
+    }
   }
   motion.counters = simulation.counters();
   return motion;

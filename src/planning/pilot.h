@@ -28,6 +28,7 @@ struct Motion
 
   std::vector<Vectors> positions;  ///< m, at equal times up to the horizon; fewer where the run did not get there
   Simulation::Counters counters;
+  double excess = 0.0;  ///< of the largest strain in `positions` above the strain limit, relative to it
 };
 
 /// The simulation of `scene` by these steps, which are shortened where the stability limit asks for it. Throws

@@ -17,7 +17,7 @@ constexpr double level = 0.9;
 constexpr double real_time_share = 0.5;
 /// A trial is made where it may save more than it takes in a run so long, s.
 constexpr double expected_run = 10.0;
-/// What trials may take while nothing is found, in parts of such a run by the scout.
+/// What trials may take while nothing is found, in parts of such a run by the scout, or at what real time allows.
 constexpr double most_trials = 0.2;
 /// And then by the scout alone, s.
 constexpr double most_seconds = 3.0;
@@ -94,7 +94,7 @@ MethodSearch* StepSearch::next_search() const
   {
     return scout_;
   }
-  if (searched_.trials.seconds() < most_trials * expected_run * scout_->least_cost())
+  if (searched_.trials.seconds() < most_trials * expected_run * std::min(scout_->least_cost(), real_time_share))
   {
     return most_promising();
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/yaml_text.h"
@@ -31,6 +32,11 @@ constexpr double most_of_scout_by_tolerance = 50.0;
 constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_allowance = 30.0;
 constexpr double untried_allowance = 3.0;
+
+/// What passes of the strain limit that are too few for a step may leave of a strain, relative to the limit, whatever
+/// the scout's steps leave, and how many times what those leave, in which luck has a part.
+constexpr double tolerated_excess = 0.1;
+constexpr double excess_of_luck = 1.5;
 
 double nodes_of(const StartedScene& scene)
 {
@@ -157,9 +163,32 @@ Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samp
                       row.linear_solves > 0 ?
                                         most_of_scout * of_scout :
                                         most_of_own * row.force_evaluations * Motion::horizon / stepping.time_step;
-  Motion motion = motion_of(scene, stepping, most, samples);
+  Motion motion = counted_motion(scene, stepping, most, samples);
+  const bool may_be_too_long = std::isinf(likely_limit(row));
+  if (may_be_too_long && motion.excess > tolerated_excess && motion.excess > most_excess())
+  {
+    motion.positions.clear();
+  }
+  return motion;
+}
+
+Motion Trials::counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples)
+{
+  Motion motion = motion_of(scene, stepping, most_evaluations, samples);
   seconds_ += evaluations_in(motion.counters) * evaluation_ * nodes_of(scene) / nodes_of(scene_);
   return motion;
+}
+
+double Trials::most_excess()
+{
+  if (!most_excess_)
+  {
+    const Stepping longest{ scout, scout_step_ };
+    const double of_scout =
+        counted_motion(pilot_, longest, std::numeric_limits<double>::infinity(), Motion::samples).excess;
+    most_excess_ = excess_of_luck * of_scout;
+  }
+  return *most_excess_;
 }
 
 }  // namespace cloth

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,8 @@ public:
   double change_without(const std::vector<std::string>& parts, const Stepping& stepping);
 
   /// The motion on the coarser grid. Cut off where it takes many times as long as steps of its length do, and where it
-  /// solves equations once it takes a quarter of what the scout's longest steps take.
+  /// solves equations once it takes a quarter of what the scout's longest steps take; it is none where steps that
+  /// stability does not bound leave springs farther above the strain limit than the scout's do.
   const Motion& motion(const Stepping& stepping);
 
   const StartedScene& scene() const
@@ -66,6 +68,8 @@ public:
 private:
   bool is_coarser() const;
   Motion run(const StartedScene& scene, const Stepping& stepping, int samples = Motion::samples);
+  Motion counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples);
+  double most_excess();
 
   StartedScene scene_;
   StartedScene pilot_;
@@ -73,6 +77,7 @@ private:
   Spectrum spectrum_;  ///< of the coarser grid
   double scout_step_;  ///< the scout's longest there, s
   double seconds_ = 0.0;
+  std::optional<double> most_excess_;  ///< of strain above its limit, relative to that
   std::map<std::string, Motion> motions_;
 };
 

@@ -102,7 +102,7 @@ TEST(MethodErrors, FollowFromNoRunThatWasCutOff)
   const SceneParams params = scene_of(
       "{cloth: {rows: 12, cols: 12, ripple: 0.01}, springs: {structural: {stiffness: 3000, damping: 0}, shear: "
       "{stiffness: "
-      "3000, damping: 0}}, strain_limit: {max_strain: 0.001, sweeps: 1000}}");
+      "3000, damping: 0}}, strain_limit: {max_strain: 0.001, sweeps: 1000, solver: sweeps}}");
   StepCosts costs("");
   Trials trials({ params, scene_start(params, make_sheet(params.sheet)) }, costs);
   Stepping stepping{ "xpbd", 0.02 };
