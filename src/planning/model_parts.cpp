@@ -14,6 +14,8 @@ bool is_damped(const SpringProperties& springs)
 
 }  // namespace
 
+const char* const internal_damping = "internal damping";
+
 const std::vector<ModelPart>& optional_parts()
 {
   static const std::vector<ModelPart> parts{
@@ -36,7 +38,7 @@ const std::vector<ModelPart>& optional_parts()
       [](SceneParams& scene) {
         scene.sheet.shear = { 0.0, 0.0 };
       } },
-    { "internal damping",
+    { internal_damping,
       [](const SceneParams& scene) {
         return is_damped(scene.sheet.structural) || is_damped(scene.sheet.shear) || is_damped(scene.sheet.flex);
       },

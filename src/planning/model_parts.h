@@ -16,6 +16,9 @@ struct ModelPart
   void (*take_out)(SceneParams& scene);
 };
 
+/// The name of the part that keeps short waves down, of which a coarser grid has none.
+extern const char* const internal_damping;
+
 /// Those that are dear enough to be worth a trial.
 const std::vector<ModelPart>& optional_parts();
 

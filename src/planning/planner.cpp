@@ -26,13 +26,20 @@ struct LeftOut
 };
 
 /// What changes the answer least goes first; what is left out stays within its share together with the rest.
-LeftOut parts_to_leave_out(Trials& trials, const Stepping& stepping, double allowed, std::vector<TriedPart>& tried)
+LeftOut parts_to_leave_out(Trials& trials, const Candidate& best, double allowed, std::vector<TriedPart>& tried)
 {
+  Stepping on_scene = best.stepping;
+  on_scene.time_step = best.row->is_adaptive ? on_scene.time_step : best.time_step;
+  const auto change_without = [&](const std::vector<std::string>& parts) {
+    const double change = trials.change_without(parts, best.on_trials);
+    const bool lets_short_waves_grow = std::find(parts.begin(), parts.end(), internal_damping) != parts.end();
+    return change < allowed && lets_short_waves_grow ? trials.change_on_the_sheet(parts, on_scene, change) : change;
+  };
   for (const ModelPart& part : optional_parts())
   {
     if (part.is_there(trials.scene().params))
     {
-      tried.push_back({ part.name, trials.change_without({ part.name }, stepping) });
+      tried.push_back({ part.name, change_without({ part.name }) });
     }
   }
   std::vector<TriedPart> by_change = tried;
@@ -43,7 +50,7 @@ LeftOut parts_to_leave_out(Trials& trials, const Stepping& stepping, double allo
   {
     std::vector<std::string> parts = left_out.parts;
     parts.push_back(part.part);
-    const double change = left_out.parts.empty() ? part.change : trials.change_without(parts, stepping);
+    const double change = left_out.parts.empty() ? part.change : change_without(parts);
     if (!(part.change < allowed) || !(change < allowed))
     {
       break;
@@ -69,7 +76,7 @@ Planned plan_by_trial(const StartedScene& scene, StepCosts& costs)
   LeftOut left_out;
   if (scene.params.plan == "auto")
   {
-    left_out = parts_to_leave_out(trials, search.best()->on_trials, trial_share * tolerance, result.tried);
+    left_out = parts_to_leave_out(trials, *search.best(), trial_share * tolerance, result.tried);
   }
   const Stepping& stepping = search.best()->stepping;
   const double method_tolerance = search.best()->row->is_adaptive ? stepping.tolerance : tolerance;

@@ -126,7 +126,7 @@ double Trials::grid_allowance(const Stepping& stepping, const Stepping& on_trial
   {
     return 1.0;
   }
-  if (3.0 * Motion::horizon / stepping.time_step * evaluation_ * samples / Motion::samples > most_seconds)
+  if (takes_too_long(stepping, 3.0 * samples / Motion::samples))
   {
     return untried_allowance;
   }
@@ -145,6 +145,26 @@ double Trials::change_without(const std::vector<std::string>& parts, const Stepp
   StartedScene lesser = pilot_;
   lesser.params = without(lesser.params, parts);
   return distance(motion(stepping), run(lesser, stepping));
+}
+
+double Trials::change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change)
+{
+  if (!is_coarser())
+  {
+    return change;
+  }
+  if (takes_too_long(stepping, 2.0))
+  {
+    return untried_allowance * change;
+  }
+  StartedScene lesser = scene_;
+  lesser.params = without(lesser.params, parts);
+  return std::max(change, distance(run(scene_, stepping), run(lesser, stepping)));
+}
+
+bool Trials::takes_too_long(const Stepping& stepping, double horizons) const
+{
+  return horizons * Motion::horizon / stepping.time_step * evaluation_ > most_seconds;
 }
 
 const Motion& Trials::motion(const Stepping& stepping)

@@ -55,6 +55,10 @@ public:
   /// together.
   double change_without(const std::vector<std::string>& parts, const Stepping& stepping);
 
+  /// The same on the sheet itself, which has shorter waves to be changed by it, where it was `change` on the coarser
+  /// grid.
+  double change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change);
+
   /// The motion on the coarser grid. Cut off where it takes many times as long as steps of its length do, and where it
   /// solves equations once it takes a quarter of what the scout's longest steps take; it is none where steps that
   /// stability does not bound leave springs farther above the strain limit than the scout's do.
@@ -67,6 +71,8 @@ public:
 
 private:
   bool is_coarser() const;
+  /// Whether some runs on the sheet itself, as long together as `horizons`, take too long.
+  bool takes_too_long(const Stepping& stepping, double horizons) const;
   Motion run(const StartedScene& scene, const Stepping& stepping, int samples = Motion::samples);
   Motion counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples);
   double most_excess();
