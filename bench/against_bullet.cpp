@@ -1,11 +1,11 @@
 // Bullet's soft body and ours on the same sheet, frame by frame in turn, in one process and on one thread:
 //
-//   against_bullet [SECONDS]
+//   against_bullet [SECONDS [NODES_A_SIDE...]]
 //
-// prints for 64 x 64 and 128 x 128 nodes how long a frame of 1/60 s takes each, as a median over the frames, and how
-// far the worst spring of each is stretched. Bullet runs as it is usually run: a step a frame, 10 and 40 iterations.
-// Ours runs xpbd in small steps, one pass over the springs each, with the strain limit at 0.05, in doubles (a step
-// each) and in mixed precision (a step a frame, in substeps).
+// prints for sheets of 64 x 64 and 128 x 128 nodes, or of those asked for, how long a frame of 1/60 s takes each, as a
+// median over the frames, and how far the worst spring of each is stretched. Bullet runs as it is usually run: a step a
+// frame, 10 and 40 iterations. Ours runs xpbd in small steps, one pass over the springs each, with the strain limit at
+// 0.05, in doubles (a step each) and in mixed precision (a step a frame, in substeps).
 
 #include <algorithm>
 #include <chrono>
@@ -29,6 +29,8 @@ using namespace cloth;
 
 constexpr double frame = 1.0 / 60.0;
 constexpr double max_strain_of_ours = 0.05;
+/// Ours takes as many substeps a frame as the sheet has nodes a side, over this.
+constexpr int nodes_a_substep = 4;
 
 class BulletCloth
 {
@@ -193,12 +195,24 @@ void compare(int nodes_a_side, int steps_a_frame, double duration)
 int main(int argc, char** argv)
 {
   const double duration = argc > 1 ? std::atof(argv[1]) : 5.0;
-  if (!(duration > frame))
+  std::vector<int> sizes;
+  for (int a = 2; a < argc; ++a)
   {
-    std::fprintf(stderr, "usage: against_bullet [SECONDS], more than a frame\n");
+    sizes.push_back(std::atoi(argv[a]));
+  }
+  if (argc < 3)
+  {
+    sizes = { 64, 128 };
+  }
+  if (!(duration > frame) || *std::min_element(sizes.begin(), sizes.end()) < nodes_a_substep)
+  {
+    std::fprintf(stderr, "usage: against_bullet [SECONDS [NODES_A_SIDE...]], more than a frame, %d nodes or more\n",
+                 nodes_a_substep);
     return 2;
   }
-  compare(64, 16, duration);
-  compare(128, 32, duration);
+  for (const int nodes_a_side : sizes)
+  {
+    compare(nodes_a_side, nodes_a_side / nodes_a_substep, duration);
+  }
   return 0;
 }

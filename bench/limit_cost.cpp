@@ -1,5 +1,6 @@
 // What the strain limit costs after a step: passes over the springs, and the time of each, against the size of the
-// sheet, for both ways to shorten springs.
+// sheet, for both ways to shorten springs; and how many passes a stretched chain takes from nothing, against its
+// length.
 
 #include <ctime>
 #include <map>
@@ -19,6 +20,7 @@ namespace
 
 constexpr double max_strain = 0.05;
 constexpr int most_passes = 100;
+constexpr int enough_passes = 100000;
 constexpr int measured_steps = 60;
 constexpr int steps_before = 60;  // a limit that has just been made knows no tensions
 
@@ -100,6 +102,28 @@ void apply(benchmark::State& benchmark, LimitSolver solver)
   benchmark.counters["a_spring_and_pass"] = all / (passes * springs_of(sheet.model));
 }
 
+/// A chain that is stretched by a fifth all along, and of which nothing is known.
+void from_nothing(benchmark::State& benchmark, LimitSolver solver)
+{
+  SheetProperties chain;
+  chain.rows = static_cast<int>(benchmark.range(0));
+  chain.cols = 1;
+  const ClothModel model = make_sheet(chain);
+  int passes = 0;
+  for (auto _ : benchmark)
+  {
+    StrainLimit limit(model, { max_strain, enough_passes, solver });
+    ClothState state{ 1.2 * model.rest_positions, Vectors::Zero(model.nodes(), 3), 0.0 };
+    passes = limit.apply(model, Pins(model.nodes()), 1.0, state).sweeps;
+  }
+  benchmark.counters["passes"] = passes;
+}
+
+void by_length(benchmark::internal::Benchmark* benchmark)
+{
+  benchmark->ArgName("nodes")->RangeMultiplier(2)->Range(16, 128)->Iterations(1)->Unit(benchmark::kMicrosecond);
+}
+
 void by_size(benchmark::internal::Benchmark* benchmark)
 {
   benchmark->ArgName("nodes_a_side")->RangeMultiplier(2)->Range(16, 128);
@@ -108,6 +132,8 @@ void by_size(benchmark::internal::Benchmark* benchmark)
 
 BENCHMARK_CAPTURE(apply, tensions, LimitSolver::tensions)->Apply(by_size)->Arg(256);
 BENCHMARK_CAPTURE(apply, plain_sweeps, LimitSolver::plain_sweeps)->Apply(by_size);
+BENCHMARK_CAPTURE(from_nothing, tensions, LimitSolver::tensions)->Apply(by_length);
+BENCHMARK_CAPTURE(from_nothing, plain_sweeps, LimitSolver::plain_sweeps)->Apply(by_length);
 
 }  // namespace
 }  // namespace cloth

@@ -13,6 +13,8 @@ namespace
 constexpr double longest_step = 1.0 / 30.0;
 constexpr double longest_trial_step = 1.0 / 16.0;
 constexpr size_t most_runs = 10;
+/// Errors that neither fall as the order says nor stay as they are by then need other trials to make sense of.
+constexpr size_t enough_runs = 4;
 /// A step is believed to be as exact as the line through the errors says down to this part of the shortest one tried.
 constexpr double least_of_finest = 0.5;
 /// What a step that solves equations takes at least, in evaluations of the forces.
@@ -113,7 +115,7 @@ public:
 
   bool knows_its_floor() const override
   {
-    return runs_ > 2;
+    return runs_ >= enough_runs || (runs_ > 2 && (errors_->falls() || errors_->is_at_its_floor()));
   }
   bool is_at_its_floor() const override
   {
