@@ -33,8 +33,8 @@ public:
     iterations_ = 0;
   }
 
-  /// To be called after an iteration for all coordinates of the nodes, n at a time, a whole number of vectors: they are
-  /// at `now`, were at `last` after the iteration before, and this one set out from `begin`.
+  /// To be called after an iteration for all coordinates of the nodes, n at a time and what makes them a whole number
+  /// of vectors: they are at `now`, were at `last` after the iteration before, and this one set out from `begin`.
   void compare(const Scalar* now, const Scalar* last, const Scalar* begin, int n)
   {
     for (int first = 0; first < n; first += lanes_of<Scalar>)
