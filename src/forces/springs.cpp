@@ -42,14 +42,15 @@ void find_elastic_and_damping_forces(const SpringBatch& batch, const Vectors& po
   }
 }
 
-/// Adds k [n n^T + a (I - n n^T)] (u_i - u_j), a the part of 1 - l0/|l| that `stiffness_across` lets through.
-template <typename StiffnessAcross>
-void add_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements, Vectors& product,
-                 StiffnessAcross&& stiffness_across)
+/// Adds k [n n^T + a (I - n n^T)] (u_i - u_j), k being the `coefficient` of a batch and a what `part_across` makes of
+/// 1 - l0/|l|.
+template <typename PartAcross>
+void add_product(const ClothModel& model, const Vectors& positions, double SpringBatch::*coefficient,
+                 const Vectors& displacements, Vectors& product, PartAcross&& part_across)
 {
   in_widest_vectors([&](auto arithmetic) {
     const auto work = [&](const SpringBatch& batch, int i, int n, Block& change) {
-      const double k = batch.stiffness;
+      const double k = batch.*coefficient;
       const double l0 = batch.rest_length;
       const Differences lengths(positions, i, batch.offset);
       const Differences approaches(displacements, i, batch.offset);
@@ -58,7 +59,7 @@ void add_product(const ClothModel& model, const Vectors& positions, const Vector
         const Vector l = lengths[s];
         const Vector u = approaches[s];
         const double inverse = inverse_length<arithmetic.has_fused_multiply_add>(l);
-        const double across = k * stiffness_across(1.0 - l0 * inverse);
+        const double across = k * part_across(1.0 - l0 * inverse);
         const double along = (k - across) * inverse * inverse * l.dot(u);
         change.x[s] = -(across * u.x + along * l.x);
         change.y[s] = -(across * u.y + along * l.y);
@@ -157,13 +158,19 @@ double max_strain(const ClothModel& model, const Vectors& positions)
 void add_stiffness_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
                            Vectors& product)
 {
-  add_product(model, positions, displacements, product, [](double across) { return std::max(0.0, across); });
+  add_product(model, positions, &SpringBatch::stiffness, displacements, product,
+              [](double part) { return std::max(0.0, part); });
 }
 
 void add_hessian_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
                          Vectors& product)
 {
-  add_product(model, positions, displacements, product, [](double across) { return across; });
+  add_product(model, positions, &SpringBatch::stiffness, displacements, product, [](double part) { return part; });
+}
+
+void add_damping_product(const ClothModel& model, const Vectors& positions, const Vectors& velocities, Vectors& product)
+{
+  add_product(model, positions, &SpringBatch::damping, velocities, product, [](double /*part*/) { return 0.0; });
 }
 
 }  // namespace cloth

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "cloth_sim/methods/spectrum.h"
-
 namespace cloth
 {
 namespace
@@ -30,6 +28,12 @@ bool has_changed_shape(const ClothModel& model, const Vectors& before, const Vec
   });
 }
 
+/// By so much that the limit is another.
+bool is_above(const SpectrumBounds& one, const SpectrumBounds& other)
+{
+  return one.stiffness > allowed_change * other.stiffness || one.damping > allowed_change * other.damping;
+}
+
 }  // namespace
 
 double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, const ClothState& state,
@@ -40,9 +44,9 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
     return limit_;
   }
   looked_at_ = steps;
-  const double bound = stiffness_bound(dynamics, state.positions);
-  const bool has_stiffened = bound > allowed_change * bound_;
-  const bool has_softened = allowed_change * bound < bound_;
+  const SpectrumBounds bounds = spectrum_bounds(dynamics, state.positions);
+  const bool has_stiffened = is_above(bounds, bounds_);
+  const bool has_softened = is_above(bounds_, bounds);
   const bool is_old =
       known_ && state.time - time_ >= longest_age && has_changed_shape(dynamics.model(), positions_, state.positions);
   const bool may_be_long = steps - worked_out_at_ >= steps_between_spectra;
@@ -53,9 +57,9 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
   }
   is_of_bound_ = known_ && !may_be_long;
   limit_ = network_stability_limit(
-      method, is_of_bound_ ? spectrum_of(dynamics, state.positions, bound) : spectrum_of(dynamics, state.positions));
+      method, is_of_bound_ ? spectrum_of(dynamics, state.positions, bounds) : spectrum_of(dynamics, state.positions));
   known_ = true;
-  bound_ = bound;
+  bounds_ = bounds;
   time_ = state.time;
   positions_ = state.positions;
   worked_out_at_ = steps;

@@ -231,6 +231,22 @@ TEST(HessianProduct, AddsToWhatIsThereAndOfACompressedSpringIsNegativeAcross)
   EXPECT_DOUBLE_EQ(product(1, 2), 7.0);
 }
 
+TEST(DampingProduct, IsMinusTheChangeOfTheForceWithVelocity)
+{
+  const ClothModel model = make_sheet(small_sheet(3, 140));
+  Noise noise;
+  const Vectors positions = model.rest_positions + 5e-4 * noise.vectors(model.nodes());
+  const Vectors direction = noise.vectors(model.nodes());
+  // Forces are linear in velocities.
+  Vectors at_rest = Vectors::Zero(model.nodes(), 3);
+  Vectors moving = at_rest;
+  add_spring_forces(model, positions, Vectors::Zero(model.nodes(), 3), at_rest);
+  add_spring_forces(model, positions, direction, moving);
+  Vectors product = Vectors::Zero(model.nodes(), 3);
+  add_damping_product(model, positions, direction, product);
+  EXPECT_TRUE(product.isApprox(at_rest - moving, 1e-12));
+}
+
 TEST(ElasticEnergy, OfOneSpringIsHalfKTimesItsExtensionSquared)
 {
   const ClothModel model = make_sheet(chain(2, 100.0, 1.0));

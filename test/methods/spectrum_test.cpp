@@ -44,6 +44,11 @@ public:
     return largest(stiffness_);
   }
 
+  double largest_damping() const
+  {
+    return largest(damping_);
+  }
+
   /// The step at which h^2/4 K + h C reaches the eigenvalue 1: where velocity Verlet's first eigenvalue passes -1.
   double verlet_limit() const
   {
@@ -196,14 +201,47 @@ TEST(Spectrum, BoundByBlocksHoldsAndIsExactInsideAFlatUniformSheet)
   sheet.flex = { 0.0, 0.0 };
   const Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), vacuum());
   const Vectors& rest = dynamics.model().rest_positions;
-  const double bound = stiffness_bound(dynamics, rest);
+  const double bound = spectrum_bounds(dynamics, rest).stiffness;
   EXPECT_NEAR(bound, 4.0 * (sheet.structural.stiffness + sheet.shear.stiffness) / dynamics.model().masses[0],
               1e-6 * bound);
   Noise noise;
   for (int trial = 0; trial < 5; ++trial)
   {
     const Vectors positions = rest + 0.03 * noise.vectors(dynamics.model().nodes());
-    EXPECT_GE(stiffness_bound(dynamics, positions), LinearisedNetwork(dynamics, positions).largest_stiffness());
+    EXPECT_GE(spectrum_bounds(dynamics, positions).stiffness,
+              LinearisedNetwork(dynamics, positions).largest_stiffness());
+  }
+}
+
+/// Internal damping, not stiffness, says how long steps may be. What it does to crumpled cloth is far from its bound.
+TEST(Spectrum, StabilityLimitOfAHeavilyDampedSheetIsBelowTheTrueOneByFivePercentAtMost)
+{
+  SheetProperties sheet = small_sheet(10, 9);
+  sheet.structural.damping = 1.0;
+  sheet.shear.damping = 0.2;
+  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), vacuum());
+  dynamics.pins().hold(still_pin("corner", { 0 }, dynamics.model().rest_positions));
+  Noise noise;
+  for (const double crumpled : { 0.0, 0.01, 0.05 })
+  {
+    const Vectors positions = dynamics.model().rest_positions + crumpled * noise.vectors(dynamics.model().nodes());
+    const double truth = LinearisedNetwork(dynamics, positions).verlet_limit();
+    const double claimed = network_stability_limit(*find_method("velocity_verlet"), spectrum_of(dynamics, positions));
+    EXPECT_LE(claimed, truth) << "crumpled by " << crumpled << " m";
+    EXPECT_GE(claimed, 0.95 * truth) << "crumpled by " << crumpled << " m";
+  }
+}
+
+TEST(Spectrum, BoundOfTheDampingHolds)
+{
+  SheetProperties sheet = small_sheet(6, 7);
+  sheet.structural.damping = 1.0;
+  const Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), vacuum());
+  Noise noise;
+  for (int trial = 0; trial < 5; ++trial)
+  {
+    const Vectors positions = dynamics.model().rest_positions + 0.03 * noise.vectors(dynamics.model().nodes());
+    EXPECT_GE(spectrum_bounds(dynamics, positions).damping, LinearisedNetwork(dynamics, positions).largest_damping());
   }
 }
 

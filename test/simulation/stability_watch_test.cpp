@@ -1,5 +1,7 @@
 // A limit that is asked for often follows the sheet, and is never too large.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "cloth_sim/methods/spectrum.h"
@@ -82,6 +84,31 @@ TEST_F(StabilityWatchTest, GrowsAgainWhereTheSheetIsSlackAgain)
   EXPECT_LT(limit_after(64), 0.75 * slack);
   stretch(0.5);
   EXPECT_GT(limit_after(128), 0.8 * slack);
+}
+
+/// A chain whose damped springs are at right angles to each other, and undamped springs from every node to the next but
+/// one. Pulled straight, it is twice as damped and no stiffer.
+TEST(StabilityWatchOfADampedChain, SeesThatItHasUnfolded)
+{
+  SheetProperties sheet = chain(9, 1.0, 0.01);
+  sheet.structural.damping = 1.0;
+  sheet.flex = { 50.0, 0.0 };
+  const Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), vacuum());
+  const Vectors& straight = dynamics.model().rest_positions;
+  ClothState state{ std::sqrt(0.5) * straight, Vectors::Zero(9, 3), 0.0 };
+  for (int node = 0; node < 9; node += 2)
+  {
+    state.positions(node, 0) += std::sqrt(0.5) * 0.125;
+  }
+  const MethodRow& method = *find_method("velocity_verlet");
+  StabilityWatch watch;
+  const double folded = watch.limit(method, dynamics, state, 0);
+  const double stiffness_folded = spectrum_bounds(dynamics, state.positions).stiffness;
+  state.positions = straight;
+  EXPECT_LE(spectrum_bounds(dynamics, straight).stiffness, 1.05 * stiffness_folded);
+  const double unfolded = watch.limit(method, dynamics, state, 64);
+  EXPECT_LE(unfolded, network_stability_limit(method, spectrum_of(dynamics, straight)));
+  EXPECT_LT(unfolded, 0.6 * folded);
 }
 
 TEST_F(StabilityWatchTest, IsWorkedOutAnewWhenItIsOld)

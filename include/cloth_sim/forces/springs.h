@@ -43,4 +43,8 @@ void add_stiffness_product(const ClothModel& model, const Vectors& positions, co
 void add_hessian_product(const ClothModel& model, const Vectors& positions, const Vectors& displacements,
                          Vectors& product);
 
+/// Adds C v, C = -df/dv of the internal damping: c n n^T (v_i - v_j), n = l/|l|. `velocities` in m/s, `product` in N.
+void add_damping_product(const ClothModel& model, const Vectors& positions, const Vectors& velocities,
+                         Vectors& product);
+
 }  // namespace cloth

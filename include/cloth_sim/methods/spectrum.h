@@ -18,28 +18,35 @@ struct Spectrum
   double frequency = 0.0;            ///< rad/s
   double undamped_frequency = 0.0;   ///< rad/s; a bound that holds
   double damping_ratio = 0.0;        ///< the largest c/k of all springs, s
-  double most_spring_damping = 0.0;  ///< 1/s; a bound that holds
+  double most_spring_damping = 0.0;  ///< 1/s
   double least_air_damping = 0.0;    ///< C_dis/m, 1/s
   double most_air_damping = 0.0;     ///< (C_dis + C_vi)/m, 1/s
 };
 
+/// Bounds for the modes of a network.
+struct SpectrumBounds
+{
+  double stiffness = 0.0;  ///< for omega^2, the largest eigenvalue of M^-1 K, 1/s2
+  double damping = 0.0;    ///< for D, the largest eigenvalue of M^-1 C, 1/s
+};
+
+/// Bounds that hold, at the price of two force evaluations, or four where internal damping matters to explicit steps:
+/// each spring's 6 x 6 matrix [A -A; -A A] is at most twice its diagonal blocks, so no eigenvalue of M^-1 K exceeds the
+/// largest of 2/m_i times that of node i's block, the sum of A over its springs. Exact for omega^2 inside a flat
+/// uniform sheet, up to 1.5 times too large on shipped scenes.
+SpectrumBounds spectrum_bounds(const Dynamics& dynamics, const Vectors& positions);
+
 /// The spectrum about `positions` (m). Springs under compression count without their destabilising part (see
 /// `add_stiffness_product`).
 ///
-/// omega^2, the largest eigenvalue of M^-1 K, comes from the Lanczos form of the power iteration, started from a vector
-/// of noise. Its Ritz value is never above the eigenvalue; with the residual added it is a bound that is hardly ever
-/// missed (Zhou and Li, "Bounding the spectrum of large Hermitian matrices", 2011), and 1 % is added for the rest.
-/// Where the bound of `stiffness_bound` is lower, that is taken.
+/// omega^2 comes from the Lanczos form of the power iteration, started from a vector of noise. Its Ritz value is never
+/// above the eigenvalue; with the residual added it is a bound that is hardly ever missed (Zhou and Li, "Bounding the
+/// spectrum of large Hermitian matrices", 2011), and 1 % is added for the rest. Where the bound of `spectrum_bounds` is
+/// lower, that is taken. D is found likewise where it is above 0.2 omega; below, steps would hardly be longer for it.
 Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions);
 
-/// The same where a bound for omega^2, 1/s2, is known.
-Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions, double stiffness);
-
-/// A bound that holds for omega^2, 1/s2, at the price of two force evaluations: each spring's 6 x 6 matrix [A -A; -A A]
-/// is at most twice its diagonal blocks, so no eigenvalue of M^-1 K exceeds the largest of 2/m_i times that of node
-/// i's block, the sum of A over its springs. Exact inside a flat uniform sheet, up to 1.5 times too large on shipped
-/// scenes.
-double stiffness_bound(const Dynamics& dynamics, const Vectors& positions);
+/// The same from bounds alone.
+Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions, const SpectrumBounds& bounds);
 
 /// The largest step that is stable for every mode that a network of this spectrum can have, s.
 double network_stability_limit(const MethodRow& method, const Spectrum& spectrum);

@@ -4,6 +4,7 @@
 
 #include "cloth_sim/methods/dynamics.h"
 #include "cloth_sim/methods/method.h"
+#include "cloth_sim/methods/spectrum.h"
 #include "cloth_sim/model/cloth_state.h"
 
 namespace cloth
@@ -11,11 +12,12 @@ namespace cloth
 
 /// The stability limit of a cloth on its way through time, at a small part of what its steps cost.
 ///
-/// Every 64 steps the bound of `stiffness_bound` tells whether the network may have become a twentieth stiffer
+/// Every 64 steps `spectrum_bounds` tell whether the network may have become a twentieth stiffer or more damped
 /// somewhere; then the limit is worked out anew, and when it is 0.2 s old, in which a sheet may unfold, unless no
 /// spring has changed by a twentieth of its length: a sheet at rest keeps its step. A Lanczos run takes as long as some
-/// 60 force evaluations, so there are at least 512 steps between two. Where the limit is wanted sooner it follows from
-/// the bound alone: never too large, and smaller by a fifth at most on shipped scenes.
+/// 60 force evaluations, or twice that where internal damping matters, so there are at least 512 steps between two.
+/// Where the limit is wanted sooner it follows from the bounds alone: never too large, and smaller by a fifth at most on
+/// shipped scenes.
 class StabilityWatch
 {
 public:
@@ -32,7 +34,7 @@ private:
   bool known_ = false;
   bool is_of_bound_ = false;
   double limit_ = 0.0;
-  double bound_ = 0.0;               ///< 1/s2, of when the limit was worked out
+  SpectrumBounds bounds_;            ///< of when the limit was worked out
   double time_ = 0.0;                ///< s, likewise
   Vectors positions_;                ///< m, likewise
   std::uint64_t worked_out_at_ = 0;  ///< steps, likewise
