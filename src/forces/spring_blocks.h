@@ -112,13 +112,15 @@ inline void clear_gaps(const SpringBatch& batch, int i, int n, Block& block)
   }
 }
 
-/// Adds to both ends of springs what work(batch, i, n, block) puts into the block for n springs, the first of which
-/// joins i and i + offset. Springs of all batches whose first ends are in `first_ends`, and of their ends those in
-/// `nodes`. Rows of springs are not kept apart: what the block gets for the gaps between them is not used.
+/// Adds to the first ends of springs what work(batch, i, n, block) puts into the block for n springs, the first of
+/// which joins i and i + offset, and `second` times that to the second ends. Springs of all batches whose first ends
+/// are in `first_ends`, and of their ends those in `nodes`. Rows of springs are not kept apart: what the block gets for
+/// the gaps between them is not used.
 ///
 /// All batches are done for one block of nodes before the next, while these are in the nearest cache.
 template <typename Work>
-void add_by_blocks(const ClothModel& model, NodeRange first_ends, NodeRange nodes, Vectors& vectors, Work&& work)
+void add_by_blocks(const ClothModel& model, NodeRange first_ends, NodeRange nodes, double second, Vectors& vectors,
+                   Work&& work)
 {
   Block block;
   for (int begin = first_ends.begin; begin < first_ends.end; begin += block_size)
@@ -136,7 +138,7 @@ void add_by_blocks(const ClothModel& model, NodeRange first_ends, NodeRange node
       work(batch, i, n, block);
       clear_gaps(batch, i, n, block);
       add_to_nodes(block, 1.0, i, std::max(0, nodes.begin - i), n, vectors);
-      add_to_nodes(block, -1.0, i + batch.offset, 0, std::min(n, nodes.end - batch.offset - i), vectors);
+      add_to_nodes(block, second, i + batch.offset, 0, std::min(n, nodes.end - batch.offset - i), vectors);
     }
   }
 }

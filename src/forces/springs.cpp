@@ -12,6 +12,9 @@ namespace cloth
 namespace
 {
 
+/// What a spring does to its second end, in parts of what it does to the first.
+constexpr double opposite = -1.0;
+
 template <bool fused>
 void find_elastic_forces(const SpringBatch& batch, const Vectors& positions, int i, int n, Block& force)
 {
@@ -66,8 +69,9 @@ void add_product(const ClothModel& model, const Vectors& positions, double Sprin
         change.z[s] = -(across * u.z + along * l.z);
       }
     };
-    for_each_stretch(model, all_nodes(model),
-                     [&](NodeRange first_ends) { add_by_blocks(model, first_ends, all_nodes(model), product, work); });
+    for_each_stretch(model, all_nodes(model), [&](NodeRange first_ends) {
+      add_by_blocks(model, first_ends, all_nodes(model), opposite, product, work);
+    });
   });
 }
 
@@ -85,22 +89,23 @@ void add_spring_forces(const ClothModel& model, const Vectors& positions, const 
 {
   in_widest_vectors([&](auto arithmetic) {
     constexpr bool fused = arithmetic.has_fused_multiply_add;
-    add_by_blocks(model, first_ends, nodes, forces, [&](const SpringBatch& batch, int i, int n, Block& force) {
-      const bool is_first = i == batch.first && i >= nodes.begin;
-      if (is_first)
-      {
-        count_call(batch);
-      }
-      if (batch.damping == 0.0)
-      {
-        find_elastic_forces<fused>(batch, positions, i, n, force);
-      }
-      else
-      {
-        part_calls()[Part::internal_damping] += is_first ? 1 : 0;
-        find_elastic_and_damping_forces<fused>(batch, positions, velocities, i, n, force);
-      }
-    });
+    add_by_blocks(model, first_ends, nodes, opposite, forces,
+                  [&](const SpringBatch& batch, int i, int n, Block& force) {
+                    const bool is_first = i == batch.first && i >= nodes.begin;
+                    if (is_first)
+                    {
+                      count_call(batch);
+                    }
+                    if (batch.damping == 0.0)
+                    {
+                      find_elastic_forces<fused>(batch, positions, i, n, force);
+                    }
+                    else
+                    {
+                      part_calls()[Part::internal_damping] += is_first ? 1 : 0;
+                      find_elastic_and_damping_forces<fused>(batch, positions, velocities, i, n, force);
+                    }
+                  });
   });
 }
 

@@ -10,6 +10,8 @@
 
 #include "cloth_sim/forces/springs.h"
 
+#include "block_bound.h"
+
 namespace cloth
 {
 namespace
@@ -17,7 +19,7 @@ namespace
 
 constexpr int most_lanczos_steps = 32;
 constexpr int steps_between_ritz_values = 4;
-constexpr double lanczos_residual = 0.005;  ///< small enough, in parts of the eigenvalue
+constexpr double lanczos_residual = 0.02;  ///< small enough, in parts of the eigenvalue
 constexpr double margin = 1.01;
 /// In parts of omega. A bound below that which is half too large shortens a step of velocity Verlet by 6 %.
 constexpr double damping_that_matters = 0.2;
@@ -105,74 +107,6 @@ double largest_damping_ratio(const ClothModel& model)
   return largest;
 }
 
-/// Sums of 3 x 3 matrices over the springs of each node.
-class NodeBlocks
-{
-public:
-  explicit NodeBlocks(const ClothModel& model) : blocks_(static_cast<size_t>(model.nodes()), Eigen::Matrix3d::Zero())
-  {
-  }
-
-  void add(int i, int j, const Eigen::Matrix3d& block)
-  {
-    blocks_[static_cast<size_t>(i)] += block;
-    blocks_[static_cast<size_t>(j)] += block;
-  }
-
-  /// The largest of 2/m_i times the largest eigenvalue of node i's block, over the free nodes.
-  double bound(const Dynamics& dynamics) const
-  {
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    double largest = 0.0;
-    for (int i = 0; i < dynamics.model().nodes(); ++i)
-    {
-      if (!dynamics.pins().holds(i))
-      {
-        const Eigen::Matrix3d& block = blocks_[static_cast<size_t>(i)];
-        const double eigenvalue = solver.computeDirect(block, Eigen::EigenvaluesOnly).eigenvalues()[2];
-        largest = std::max(largest, 2.0 / dynamics.model().masses[i] * eigenvalue);
-      }
-    }
-    return largest;
-  }
-
-private:
-  std::vector<Eigen::Matrix3d> blocks_;
-};
-
-/// Calls visit(batch, i, j, along, across) for every spring that has a direction: n n^T, and the part of K across it
-/// that is not negative, N/m.
-template <typename Visit>
-void for_each_stiffness(const ClothModel& model, const Vectors& positions, Visit&& visit)
-{
-  for (const SpringBatch& batch : model.springs)
-  {
-    for_each_spring(batch, [&](int i, int j) {
-      const Eigen::Vector3d l = (positions.row(j) - positions.row(i)).transpose();
-      const double length = l.norm();
-      if (length > 0.0)
-      {
-        const Eigen::Matrix3d along = l * l.transpose() / (length * length);
-        const double stretch = std::max(0.0, 1.0 - batch.rest_length / length);
-        visit(batch, i, j, along, batch.stiffness * stretch * (Eigen::Matrix3d::Identity() - along));
-      }
-    });
-  }
-}
-
-/// Likewise for the largest eigenvalue of M^-1 K_u, see Spectrum.
-double undamped_stiffness_bound(const Dynamics& dynamics, const Vectors& positions, double damping_ratio)
-{
-  NodeBlocks undamped(dynamics.model());
-  for_each_stiffness(
-      dynamics.model(), positions,
-      [&](const SpringBatch& batch, int i, int j, const Eigen::Matrix3d& along, const Eigen::Matrix3d& across) {
-        const double damped_stiffness = damping_ratio > 0.0 ? batch.damping / damping_ratio : 0.0;
-        undamped.add(i, j, (batch.stiffness - damped_stiffness) * along + across);
-      });
-  return undamped.bound(dynamics);
-}
-
 bool damping_matters(const SpectrumBounds& bounds)
 {
   return bounds.damping > damping_that_matters * std::sqrt(bounds.stiffness);
@@ -182,21 +116,17 @@ bool damping_matters(const SpectrumBounds& bounds)
 
 SpectrumBounds spectrum_bounds(const Dynamics& dynamics, const Vectors& positions)
 {
-  const ClothModel& model = dynamics.model();
-  NodeBlocks blocks(model);
-  for_each_stiffness(model, positions,
-                     [&](const SpringBatch& batch, int i, int j, const Eigen::Matrix3d& along,
-                         const Eigen::Matrix3d& across) { blocks.add(i, j, batch.stiffness * along + across); });
   SpectrumBounds bounds;
-  bounds.stiffness = blocks.bound(dynamics);
-  bounds.damping = largest_damping_ratio(model) * bounds.stiffness;
+  bounds.stiffness = block_bound(dynamics, positions, [](const SpringBatch& batch) {
+    return BlockCoefficients{ batch.stiffness, batch.stiffness };
+  });
+  bounds.damping = largest_damping_ratio(dynamics.model()) * bounds.stiffness;
   if (damping_matters(bounds))
   {
-    NodeBlocks damping(model);
-    for_each_stiffness(model, positions,
-                       [&](const SpringBatch& batch, int i, int j, const Eigen::Matrix3d& along,
-                           const Eigen::Matrix3d& /*across*/) { damping.add(i, j, batch.damping * along); });
-    bounds.damping = std::min(bounds.damping, damping.bound(dynamics));
+    const double damping = block_bound(dynamics, positions, [](const SpringBatch& batch) {
+      return BlockCoefficients{ batch.damping, 0.0 };
+    });
+    bounds.damping = std::min(bounds.damping, damping);
   }
   return bounds;
 }
@@ -219,7 +149,10 @@ Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions, const S
   Spectrum spectrum;
   spectrum.frequency = std::sqrt(bounds.stiffness);
   spectrum.damping_ratio = largest_damping_ratio(model);
-  const double undamped = undamped_stiffness_bound(dynamics, positions, spectrum.damping_ratio);
+  const double undamped = block_bound(dynamics, positions, [&](const SpringBatch& batch) {
+    const double damped = spectrum.damping_ratio > 0.0 ? batch.damping / spectrum.damping_ratio : 0.0;
+    return BlockCoefficients{ batch.stiffness - damped, batch.stiffness };
+  });
   // A spring at rest is stretched by a rounding error at most, which stiffens nothing.
   const bool is_rounding = undamped <= 1e-12 * bounds.stiffness;
   spectrum.undamped_frequency = is_rounding ? 0.0 : std::sqrt(std::min(bounds.stiffness, undamped));

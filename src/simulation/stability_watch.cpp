@@ -8,7 +8,7 @@ namespace
 {
 
 constexpr std::uint64_t steps_between_looks = 64;
-constexpr std::uint64_t steps_between_spectra = 512;
+constexpr std::uint64_t steps_between_spectra = 256;
 constexpr double longest_age = 0.2;  // s
 constexpr double allowed_change = 1.05;
 constexpr double allowed_turn = 0.05;

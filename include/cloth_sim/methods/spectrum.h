@@ -30,10 +30,9 @@ struct SpectrumBounds
   double damping = 0.0;    ///< for D, the largest eigenvalue of M^-1 C, 1/s
 };
 
-/// Bounds that hold, at the price of two force evaluations, or four where internal damping matters to explicit steps:
-/// each spring's 6 x 6 matrix [A -A; -A A] is at most twice its diagonal blocks, so no eigenvalue of M^-1 K exceeds the
-/// largest of 2/m_i times that of node i's block, the sum of A over its springs. Exact for omega^2 inside a flat
-/// uniform sheet, up to 1.5 times too large on shipped scenes.
+/// Bounds that hold, from the springs at each node (`block_bound`); for D where internal damping matters to explicit
+/// steps, or else damping_ratio omega^2. Exact for omega^2 inside a flat uniform sheet, up to 1.5 times too large on
+/// shipped scenes.
 SpectrumBounds spectrum_bounds(const Dynamics& dynamics, const Vectors& positions);
 
 /// The spectrum about `positions` (m). Springs under compression count without their destabilising part (see

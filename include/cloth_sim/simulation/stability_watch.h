@@ -14,10 +14,10 @@ namespace cloth
 ///
 /// Every 64 steps `spectrum_bounds` tell whether the network may have become a twentieth stiffer or more damped
 /// somewhere; then the limit is worked out anew, and when it is 0.2 s old, in which a sheet may unfold, unless no
-/// spring has changed by a twentieth of its length: a sheet at rest keeps its step. A Lanczos run takes as long as some
-/// 60 force evaluations, or twice that where internal damping matters, so there are at least 512 steps between two.
-/// Where the limit is wanted sooner it follows from the bounds alone: never too large, and smaller by a fifth at most on
-/// shipped scenes.
+/// spring has changed by a twentieth of its length: a sheet at rest keeps its step. A look takes as long as two to four
+/// steps. Lanczos takes as long as some 20, or 50 where internal damping matters, so there are at least 256 steps
+/// between two runs of it. Where the limit is wanted sooner it follows from the bounds alone: never too large, and
+/// smaller by a fifth at most on shipped scenes.
 class StabilityWatch
 {
 public:
