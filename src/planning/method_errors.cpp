@@ -22,9 +22,26 @@ constexpr double of_longer[] = { 1.8, 1.15 };
 
 }  // namespace
 
-MethodErrors::MethodErrors(Trials& trials, int order, const Stepping& stepping, const Reference& reference)
-  : trials_(trials), order_(std::min(order, most_order)), stepping_(stepping), reference_(reference)
+MethodErrors::MethodErrors(Trials& trials, int order, const Stepping& stepping)
+  : trials_(trials), order_(std::min(order, most_order)), stepping_(stepping)
 {
+}
+
+void MethodErrors::hold_against(const Reference& reference)
+{
+  reference_ = reference;
+  differences_.clear();
+  for (const double step : steps_)
+  {
+    differences_.push_back(distance(trials_.motion(at(step)), *reference_.motion));
+  }
+}
+
+Stepping MethodErrors::at(double time_step) const
+{
+  Stepping stepping = stepping_;
+  stepping.time_step = time_step;
+  return stepping;
 }
 
 void MethodErrors::run_next()
@@ -35,15 +52,13 @@ void MethodErrors::run_next()
     stepping_.time_step *= 0.5;
   }
   const Motion& motion = trials_.motion(stepping_);
-  if (reference_.motion != nullptr)
+  if (has_reference())
   {
     differences_.push_back(distance(motion, *reference_.motion));
   }
   else if (!is_first)
   {
-    Stepping before = stepping_;
-    before.time_step = steps_.back();
-    differences_.push_back(distance(trials_.motion(before), motion));
+    differences_.push_back(distance(trials_.motion(at(steps_.back())), motion));
   }
   steps_.push_back(stepping_.time_step);
 }
@@ -63,7 +78,8 @@ bool MethodErrors::falls() const
 bool MethodErrors::is_at_its_floor() const
 {
   const size_t count = differences_.size();
-  return count >= 2 && differences_[count - 2] < std::exp2(order_at_the_floor * order_) * differences_[count - 1];
+  return !has_reference() && count >= 2 &&
+         differences_[count - 2] < std::exp2(order_at_the_floor * order_) * differences_[count - 1];
 }
 
 const Motion& MethodErrors::finest() const
@@ -118,7 +134,7 @@ double MethodErrors::step_for(double allowed) const
 /// By Richardson's extrapolation where two differences that follow each other fall as the method's order has it.
 double MethodErrors::error_at(size_t run) const
 {
-  if (reference_.motion != nullptr)
+  if (has_reference())
   {
     return std::hypot(differences_[run], reference_.error);
   }

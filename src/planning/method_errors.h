@@ -19,9 +19,16 @@ public:
     double error = std::numeric_limits<double>::infinity();  ///< of itself, estimated, m
   };
 
-  /// `stepping` is the one with the longest step (s). With a reference each run's error is its distance from that;
-  /// without, it follows from how the runs differ among each other.
-  MethodErrors(Trials& trials, int order, const Stepping& stepping, const Reference& reference);
+  /// `stepping` is the one with the longest step (s).
+  MethodErrors(Trials& trials, int order, const Stepping& stepping);
+
+  /// From now on the error of every run is its distance from the reference. Without one it follows from how the runs
+  /// differ among each other.
+  void hold_against(const Reference& reference);
+  bool has_reference() const
+  {
+    return reference_.motion != nullptr;
+  }
 
   /// Runs the longest step first, then half the step before.
   void run_next();
@@ -32,7 +39,7 @@ public:
   /// Whether the errors fall as they do where steps are short enough for the method's order to show.
   bool falls() const;
 
-  /// The motion parts from itself: shorter steps do not bring it nearer to anything.
+  /// Runs with shorter steps do not differ less: the motion parts from itself, or all steps are far too long.
   bool is_at_its_floor() const;
 
   double finest_step() const
@@ -50,6 +57,7 @@ public:
   double step_for(double allowed) const;
 
 private:
+  Stepping at(double time_step) const;
   double error_at(size_t run) const;
   /// Of the line through the last two errors that say something about `time_step`.
   double slope(size_t next) const;

@@ -23,8 +23,6 @@ constexpr double evaluations_of_a_solve = 300.0;
 constexpr double evaluations_of_an_iteration = 3.0;
 /// By how much errors of long steps that damp what they should not fall faster than the order says.
 constexpr double order_of_lost_damping = 1.5;
-/// A reference errs by no more than this part of what may be erred by.
-constexpr double reference_share = 0.25;
 
 /// A method whose steps are all as long as it is told.
 class StepLengthSearch : public MethodSearch
@@ -74,16 +72,17 @@ public:
         is_over_ = true;
         return;
       }
-      const bool is_exact_enough = reference.error < reference_share * searched_.allowed;
-      errors_.emplace(searched_.trials, row_.order, stepping_of(longest_on_trials_),
-                      is_exact_enough ? reference : MethodErrors::Reference{});
+      errors_.emplace(searched_.trials, row_.order, stepping_of(longest_on_trials_));
+    }
+    if (reference.motion != nullptr && !errors_->has_reference())
+    {
+      errors_->hold_against(reference);
     }
     errors_->run_next();
     ++runs_;
     count_evaluations();
     look_for_steps();
-    is_over_ = is_over_ || found_ || runs_ >= most_runs || errors_->is_at_its_floor() ||
-               errors_->finest_step() < Simulation::shortest_step;
+    is_over_ = is_over_ || found_ || runs_ >= most_runs || errors_->finest_step() < Simulation::shortest_step;
   }
 
   std::optional<Candidate> found() const override
@@ -166,7 +165,12 @@ private:
 
   void look_for_steps()
   {
-    if (!errors_->is_known() || (!is_limited_ && !errors_->falls()))
+    if (!errors_->is_known())
+    {
+      return;
+    }
+    const bool is_seen = errors_->has_reference() && errors_->error_of_finest() <= searched_.allowed;
+    if (!is_limited_ && !is_seen && !errors_->falls())
     {
       return;
     }
@@ -240,9 +244,8 @@ public:
   void try_next(const MethodErrors::Reference& reference) override
   {
     const Motion& motion = searched_.trials.motion(stepping_of(tolerance_));
-    const bool is_exact_enough = reference.error < reference_share * searched_.allowed;
     tried_.push_back(tolerance_);
-    error_ = is_exact_enough   ? std::hypot(distance(motion, *reference.motion), reference.error) :
+    error_ = reference.motion != nullptr ? std::hypot(distance(motion, *reference.motion), reference.error) :
              tried_.size() > 1 ? distance(motion, searched_.trials.motion(stepping_of(tried_[tried_.size() - 2]))) :
                                  std::numeric_limits<double>::infinity();
     if (error_ <= searched_.allowed)

@@ -55,6 +55,7 @@ public:
   /// Of the step that the next trial is about, s of work for a simulated second.
   virtual double next_cost() const = 0;
 
+  /// Held against a reference where there is a motion.
   virtual void try_next(const MethodErrors::Reference& reference) = 0;
 
   /// The cheapest steps that are exact enough.
@@ -67,7 +68,7 @@ public:
   virtual MethodErrors::Reference reference() const = 0;
 
   /// Whether it is known how errors fall when steps are halved, and whether they do: where not, the motion parts from
-  /// itself.
+  /// itself, or all steps so far are far too long, which a reference tells.
   virtual bool knows_its_floor() const
   {
     return false;

@@ -76,7 +76,8 @@ Planned plan_by_trial(const StartedScene& scene, StepCosts& costs)
   LeftOut left_out;
   if (scene.params.plan == "auto")
   {
-    left_out = parts_to_leave_out(trials, *search.best(), trial_share * tolerance, result.tried);
+    const bool can_tell = search.best()->error <= tolerance;
+    left_out = parts_to_leave_out(trials, *search.best(), can_tell ? trial_share * tolerance : 0.0, result.tried);
   }
   const Stepping& stepping = search.best()->stepping;
   const double method_tolerance = search.best()->row->is_adaptive ? stepping.tolerance : tolerance;

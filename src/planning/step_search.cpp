@@ -22,6 +22,9 @@ constexpr double most_trials = 0.2;
 /// And then by the scout alone, s.
 constexpr double most_seconds = 3.0;
 
+/// A reference errs by no more than this part of what may be erred by.
+constexpr double reference_share = 0.25;
+
 /// How many samples are enough to compare a sheet's errors with those of a coarser one, unless they are larger than
 /// this part of what they may be.
 constexpr int early_samples = 2;
@@ -69,7 +72,7 @@ void StepSearch::run()
 {
   while (MethodSearch* const search = next_search())
   {
-    search->try_next(scout_ != nullptr && search != scout_ ? scout_->reference() : MethodErrors::Reference{});
+    search->try_next(search == scout_ ? MethodErrors::Reference{} : reference_for(*search));
     if (const std::optional<Candidate> candidate = search->found())
     {
       found_.push_back(*candidate);
@@ -121,9 +124,23 @@ MethodSearch* StepSearch::most_promising() const
   return is_near_the_scout && is_worth_a_trial(*scout_) ? scout_ : best;
 }
 
+MethodErrors::Reference StepSearch::reference_for(const MethodSearch& asking) const
+{
+  MethodErrors::Reference best;
+  for (const std::unique_ptr<MethodSearch>& search : searches_)
+  {
+    if (search.get() != &asking && (search.get() == scout_ || search->found()))
+    {
+      const MethodErrors::Reference reference = search->reference();
+      best = reference.error < best.error ? reference : best;
+    }
+  }
+  return best.error < reference_share * searched_.allowed ? best : MethodErrors::Reference{};
+}
+
 bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
 {
-  if (search.is_over())
+  if (search.is_over() || (search.is_at_its_floor() && reference_for(search).motion == nullptr))
   {
     return false;
   }
@@ -196,7 +213,7 @@ void StepSearch::allow_for_the_grid()
   on_trials.time_step = best_->time_step * best_->stretch;
   const bool was_found = best_->error <= searched_.allowed;
   double factor = searched_.trials.grid_allowance(on_scene, on_trials, early_samples);
-  if (was_found && !best_->row->iterates_locally && best_->error * factor > critical_share * searched_.allowed)
+  if (was_found && best_->error * factor > critical_share * searched_.allowed)
   {
     factor = searched_.trials.grid_allowance(on_scene, on_trials, Motion::samples);
   }

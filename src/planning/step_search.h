@@ -31,6 +31,9 @@ private:
   MethodSearch* next_search() const;
   MethodSearch* most_promising() const;
   bool is_worth_a_trial(const MethodSearch& search) const;
+  /// The most exact run of the scout and the methods that were found to be exact enough, where it is so exact that
+  /// others can be held against it.
+  MethodErrors::Reference reference_for(const MethodSearch& asking) const;
   void choose();
   void allow_for_the_grid();
   Candidate allowing_for(Candidate candidate, double factor) const;

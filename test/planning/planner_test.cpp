@@ -152,6 +152,21 @@ TEST(Planned, TakesNoLongerStepThanGiven)
   EXPECT_LE(choice.time_step, 1e-4);
 }
 
+/// Where steps err by more than the tolerance, trials do not tell what is below it.
+TEST(Planned, LeavesNothingOutWhereTheToleranceCannotBeHad)
+{
+  StepCosts costs("");
+  StartedScene scene = started(damped_sheet(8, "springs: {flex: {stiffness: 1.0e-30}}"));
+  scene.params.solver.tolerance = 1e-16;
+  const Planned planned = plan_by_trial(scene, costs);
+  ASSERT_GT(planned.choice.error, 1e-16);
+  const auto flex = std::find_if(planned.tried.begin(), planned.tried.end(),
+                                 [](const TriedPart& part) { return part.part == "flex springs"; });
+  ASSERT_NE(flex, planned.tried.end());
+  EXPECT_EQ(flex->change, 0.0);
+  EXPECT_TRUE(planned.choice.left_out.empty());
+}
+
 TEST(Planned, SaysWhereTheToleranceCannotBeHad)
 {
   // Drawn together, undamped and without flex springs it folds as chance has it.
