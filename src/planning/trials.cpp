@@ -136,7 +136,9 @@ double Trials::grid_allowance(const Stepping& stepping, const Stepping& on_trial
     return distance(at_given, run(scene, steps, samples), samples);
   };
   const double ratio = error_on(scene_, stepping) / error_on(pilot_, on_trial);
-  const double least = find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
+  const bool is_early = samples < Motion::samples;
+  const double least =
+      is_early && find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
   return std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance;
 }
 
