@@ -140,7 +140,9 @@ MethodErrors::Reference StepSearch::reference_for(const MethodSearch& asking) co
 
 bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
 {
-  if (search.is_over() || (search.is_at_its_floor() && reference_for(search).motion == nullptr))
+  const bool needs_reference = search.is_at_its_floor();
+  const bool has_reference = &search != scout_ && reference_for(search).motion != nullptr;
+  if (search.is_over() || (needs_reference && !has_reference))
   {
     return false;
   }
