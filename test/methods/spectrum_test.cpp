@@ -213,6 +213,41 @@ TEST(Spectrum, BoundByBlocksHoldsAndIsExactInsideAFlatUniformSheet)
   }
 }
 
+TEST(Spectrum, BoundByBlocksIsTwiceTheLargestEigenvalueOfAnyFreeNodesBlock)
+{
+  const SheetProperties sheet = small_sheet(6, 90);
+  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), vacuum());
+  const ClothModel& model = dynamics.model();
+  dynamics.pins().hold(still_pin("corner", { 0 }, model.rest_positions));
+  Noise noise;
+  // Cells are 6 mm wide: springs are stretched and compressed, one has no length.
+  Vectors positions = model.rest_positions + 0.003 * noise.vectors(model.nodes());
+  positions.row(101) = positions.row(100);
+  std::vector<Eigen::Matrix3d> blocks(static_cast<size_t>(model.nodes()), Eigen::Matrix3d::Zero());
+  for (const SpringBatch& batch : model.springs)
+  {
+    for_each_spring(batch, [&](int i, int j) {
+      const Eigen::Vector3d l = (positions.row(j) - positions.row(i)).transpose();
+      const double length = l.norm();
+      const Eigen::Matrix3d along =
+          length > 0.0 ? Eigen::Matrix3d(l * l.transpose() / l.squaredNorm()) : Eigen::Matrix3d::Zero();
+      const double stretch = length > 0.0 ? std::max(0.0, 1.0 - batch.rest_length / length) : 1.0;
+      const Eigen::Matrix3d block = batch.stiffness * (along + stretch * (Eigen::Matrix3d::Identity() - along));
+      blocks[static_cast<size_t>(i)] += block;
+      blocks[static_cast<size_t>(j)] += block;
+    });
+  }
+  double largest = 0.0;
+  for (int i = 1; i < model.nodes(); ++i)
+  {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(blocks[static_cast<size_t>(i)]);
+    largest = std::max(largest, 2.0 / model.masses[i] * solver.eigenvalues()[2]);
+  }
+  const double bound = spectrum_bounds(dynamics, positions).stiffness;
+  EXPECT_GE(bound, largest * (1.0 - 1e-12));
+  EXPECT_LE(bound, largest * (1.0 + 2e-6));
+}
+
 /// Internal damping, not stiffness, says how long steps may be. What it does to crumpled cloth is far from its bound.
 TEST(Spectrum, StabilityLimitOfAHeavilyDampedSheetIsBelowTheTrueOneByFivePercentAtMost)
 {
