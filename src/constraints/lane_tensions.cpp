@@ -14,13 +14,13 @@ namespace cloth
 namespace
 {
 
-/// Multiplies the tensions by `factor`, gives each spring the one that is right if all others' are, and moves its ends,
-/// i and j in the blocks of nodes, by the change. Returns whether any is taut.
-template <bool fused>
+/// Gives each spring the tension that is right if all others' are, and moves its ends, i and j in the blocks of nodes,
+/// by the change. In a first pass tensions are multiplied by `factor` before. Returns whether any is taut, where that
+/// is asked for: a first pass.
+template <bool fused, bool is_first>
 bool relax_run(float* i, float* j, float* tensions, const float* reduced_masses, float longest, float factor)
 {
   using namespace lane_node;
-  const float squared = longest * longest;
   int taut = 0;
 #pragma GCC ivdep
   for (int k = 0; k < lanes; ++k)
@@ -31,9 +31,9 @@ bool relax_run(float* i, float* j, float* tensions, const float* reduced_masses,
     const float way_x_j = j[way_x + k];
     const float way_y_j = j[way_y + k];
     const float way_z_j = j[way_z + k];
-    const float p_x = factor * tensions[lane_vector::x + k];
-    const float p_y = factor * tensions[lane_vector::y + k];
-    const float p_z = factor * tensions[lane_vector::z + k];
+    const float p_x = is_first ? factor * tensions[lane_vector::x + k] : tensions[lane_vector::x + k];
+    const float p_y = is_first ? factor * tensions[lane_vector::y + k] : tensions[lane_vector::y + k];
+    const float p_z = is_first ? factor * tensions[lane_vector::z + k] : tensions[lane_vector::z + k];
     const float w_i = i[inverse_mass + k];
     const float w_j = j[inverse_mass + k];
     const float w = w_i + w_j;
@@ -41,8 +41,7 @@ bool relax_run(float* i, float* j, float* tensions, const float* reduced_masses,
     const float d_y = j[y + k] - i[y + k] + (way_y_j - way_y_i) + w * p_y;
     const float d_z = j[z + k] - i[z + k] + (way_z_j - way_z_i) + w * p_z;
     const float square = d_x * d_x + d_y * d_y + d_z * d_z;
-    const bool is_taut = square > squared && reduced_masses[k] > 0.0F;
-    const float part = is_taut ? (1.0F - longest * inverse_root<fused>(square)) * reduced_masses[k] : 0.0F;
+    const float part = std::max(0.0F, 1.0F - longest * inverse_root<fused>(square)) * reduced_masses[k];
     const float change_x = part * d_x - p_x;
     const float change_y = part * d_y - p_y;
     const float change_z = part * d_z - p_z;
@@ -55,24 +54,27 @@ bool relax_run(float* i, float* j, float* tensions, const float* reduced_masses,
     j[way_x + k] = way_x_j - w_j * change_x;
     j[way_y + k] = way_y_j - w_j * change_y;
     j[way_z + k] = way_z_j - w_j * change_z;
-    taut |= is_taut ? 1 : 0;
+    if constexpr (is_first)
+    {
+      taut |= part > 0.0F ? 1 : 0;
+    }
   }
-  return taut != 0;
+  return is_first ? taut != 0 : true;
 }
 
 bool run_has_longer(const float* i, const float* j, const float* reduced_masses, float longest)
 {
   using namespace lane_node;
   const float squared = longest * longest;
-  int any = 0;
+  int longer = 0;
   for (int k = 0; k < lanes; ++k)
   {
     const float l_x = j[x + k] - i[x + k] + (j[way_x + k] - i[way_x + k]);
     const float l_y = j[y + k] - i[y + k] + (j[way_y + k] - i[way_y + k]);
     const float l_z = j[z + k] - i[z + k] + (j[way_z + k] - i[way_z + k]);
-    any |= l_x * l_x + l_y * l_y + l_z * l_z > squared && reduced_masses[k] > 0.0F ? 1 : 0;
+    longer |= l_x * l_x + l_y * l_y + l_z * l_z > squared && reduced_masses[k] > 0.0F ? 1 : 0;
   }
-  return any != 0;
+  return longer != 0;
 }
 
 template <bool fused>
@@ -118,7 +120,8 @@ Number* ways_of(Number* nodes, int vector)
   return nodes + vector * LaneNodes::size + lane_node::way_x;
 }
 
-void shift(float* nodes, const float* shifts, float factor)
+/// Shifts nodes, and leaves shifts of 0 behind.
+void shift(float* nodes, float* shifts, float factor)
 {
 #pragma GCC ivdep
   for (int k = 0; k < lanes; ++k)
@@ -126,6 +129,9 @@ void shift(float* nodes, const float* shifts, float factor)
     nodes[lane_node::way_x + k] += factor * shifts[lane_vector::x + k];
     nodes[lane_node::way_y + k] += factor * shifts[lane_vector::y + k];
     nodes[lane_node::way_z + k] += factor * shifts[lane_vector::z + k];
+    shifts[lane_vector::x + k] = 0.0F;
+    shifts[lane_vector::y + k] = 0.0F;
+    shifts[lane_vector::z + k] = 0.0F;
   }
 }
 
@@ -152,7 +158,7 @@ LaneTensions::LaneTensions(const ClothModel& model, const LaneLayout& layout)
 
 void LaneTensions::prepare(const LaneNodes& nodes, const std::vector<int>& held)
 {
-  tethers_.hold(held);
+  tethers_.prepare(nodes, held);
   reduced_masses_.clear();
   for (const Run& run : runs_)
   {
@@ -172,7 +178,7 @@ int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes, double
   while (done < allowed && (done < there_and_back || has_longer(nodes, most, Springs::taut)))
   {
     give_momentum(nodes, done);
-    if (!relax(nodes, target, factor, done == 0 ? Springs::all : Springs::taut))
+    if (!relax(nodes, target, factor, done == 0 && is_watched ? Springs::all : Springs::taut))
     {
       break;
     }
@@ -209,21 +215,17 @@ float LaneTensions::pull_as_before(LaneNodes& nodes, float stretch)
 {
   DualParabola<float> parabola;
   float factor = 0.0F;
-  std::fill_n(shifts_.data(), vectors_ * LaneVectors::size, 0.0F);
   tethers_.add_shifts(nodes, stretch, shifts_, parabola);
   in_widest_vectors([&](auto arithmetic) {
     float* const at = nodes.data();
     float* const shifts = shifts_.data();
-    for (size_t r = 0; r < runs_.size(); ++r)
+    for (const size_t r : taut_)
     {
       const LaneRun& springs = runs_[r].springs;
-      if (runs_[r].is_taut)
-      {
-        add_run_shifts<arithmetic.has_fused_multiply_add>(
-            at + LaneNodes::place_of(springs.i), at + LaneNodes::place_of(springs.j), tensions_of(r),
-            stretch * rest_lengths_[springs.batch], shifts + LaneVectors::place_of(springs.i),
-            shifts + LaneVectors::place_of(springs.j), parabola);
-      }
+      add_run_shifts<arithmetic.has_fused_multiply_add>(
+          kept(at + springs.place_i), kept(at + springs.place_j), kept(tensions_of(r)),
+          stretch * rest_lengths_[springs.batch], kept(shifts + LaneVectors::place_of(springs.i)),
+          kept(shifts + LaneVectors::place_of(springs.j)), parabola);
     }
     for (int v = 0; v < vectors_; ++v)
     {
@@ -242,27 +244,69 @@ bool LaneTensions::relax(LaneNodes& nodes, float stretch, float factor, Springs 
 {
   ++part_calls()[Part::strain_watch];
   tethers_.relax(nodes, stretch, factor);
+  if (springs == Springs::all)
+  {
+    find_taut(nodes, stretch);
+  }
   backwards_ = !backwards_;
-  bool is_taut = false;
+  if (springs == Springs::all || factor != 1.0F)
+  {
+    relax_taut<true>(nodes, stretch, factor);
+  }
+  else
+  {
+    relax_taut<false>(nodes, stretch, factor);
+  }
+  const bool is_any = !taut_.empty();
+  part_calls()[Part::strain_limit] += is_any ? 1 : 0;
+  taut_.erase(std::remove_if(taut_.begin(), taut_.end(), [this](size_t r) { return !runs_[r].is_taut; }), taut_.end());
+  return is_any;
+}
+
+template <bool is_first>
+void LaneTensions::relax_taut(LaneNodes& nodes, float stretch, float factor)
+{
   in_widest_vectors([&](auto arithmetic) {
     float* const at = nodes.data();
-    for (size_t done = 0; done < runs_.size(); ++done)
+    for (size_t done = 0; done < taut_.size(); ++done)
     {
-      const size_t r = backwards_ ? runs_.size() - 1 - done : done;
+      const size_t r = taut_[backwards_ ? taut_.size() - 1 - done : done];
       Run& run = runs_[r];
-      float* const i = at + LaneNodes::place_of(run.springs.i);
-      float* const j = at + LaneNodes::place_of(run.springs.j);
-      const float longest = stretch * rest_lengths_[run.springs.batch];
-      if (run.is_taut || (springs == Springs::all && run_has_longer(i, j, reduced_masses_[r], longest)))
-      {
-        run.is_taut =
-            relax_run<arithmetic.has_fused_multiply_add>(i, j, tensions_of(r), reduced_masses_[r], longest, factor);
-        is_taut = true;
-      }
+      run.is_taut = relax_run<arithmetic.has_fused_multiply_add, is_first>(
+          kept(at + run.springs.place_i), kept(at + run.springs.place_j), kept(tensions_of(r)),
+          kept(reduced_masses_[r]), stretch * rest_lengths_[run.springs.batch], factor);
     }
   });
-  part_calls()[Part::strain_limit] += is_taut ? 1 : 0;
-  return is_taut;
+}
+
+void LaneTensions::find_taut(const LaneNodes& nodes, float stretch)
+{
+  taut_.resize(runs_.size());
+  size_t found = 0;
+  in_widest_vectors([&](auto) {
+    const float* const at = nodes.data();
+    for (size_t r = 0; r < runs_.size(); ++r)
+    {
+      const LaneRun& springs = runs_[r].springs;
+      const bool is_longer = run_has_longer(kept(at + springs.place_i), kept(at + springs.place_j), kept(reduced_masses_[r]),
+                                            stretch * rest_lengths_[springs.batch]);
+      taut_[found] = static_cast<std::uint32_t>(r);
+      found += runs_[r].is_taut | is_longer ? 1 : 0;
+    }
+  });
+  taut_.resize(found);
+}
+
+void LaneTensions::list_taut()
+{
+  taut_.resize(runs_.size());
+  size_t found = 0;
+  for (size_t r = 0; r < runs_.size(); ++r)
+  {
+    taut_[found] = static_cast<std::uint32_t>(r);
+    found += runs_[r].is_taut ? 1 : 0;
+  }
+  taut_.resize(found);
 }
 
 void LaneTensions::give_momentum(LaneNodes& nodes, int passes)
@@ -307,7 +351,7 @@ void LaneTensions::carry_on_all(LaneNodes& nodes)
     {
       const int first = v * LaneVectors::size;
       float* const ways = ways_of(nodes.data(), v);
-      carry_on(ways, last_ways_.data() + first, LaneVectors::size, part);
+      carry_on(kept(ways), kept(last_ways_.data() + first), LaneVectors::size, part);
       std::copy_n(ways, LaneVectors::size, begins_.data() + first);
     }
     for (size_t r = 0; r < runs_.size(); ++r)
@@ -316,6 +360,7 @@ void LaneTensions::carry_on_all(LaneNodes& nodes)
                LaneVectors::size, part);
     }
   });
+  list_taut();
   tethers_.carry_on_all(part);
 }
 
@@ -324,13 +369,14 @@ bool LaneTensions::has_longer(const LaneNodes& nodes, float stretch, Springs spr
   ++part_calls()[Part::strain_watch];
   bool found = false;
   in_widest_vectors([&](auto) {
-    for (size_t r = 0; r < runs_.size() && !found; ++r)
+    const float* const at = nodes.data();
+    const size_t looked_at = springs == Springs::all ? runs_.size() : taut_.size();
+    for (size_t k = 0; k < looked_at && !found; ++k)
     {
-      const Run& run = runs_[r];
-      found = (springs == Springs::all || run.is_taut) &&
-              run_has_longer(nodes.data() + LaneNodes::place_of(run.springs.i),
-                             nodes.data() + LaneNodes::place_of(run.springs.j), reduced_masses_[r],
-                             stretch * rest_lengths_[run.springs.batch]);
+      const size_t r = springs == Springs::all ? k : taut_[k];
+      const LaneRun& run = runs_[r].springs;
+      found = run_has_longer(kept(at + run.place_i), kept(at + run.place_j), kept(reduced_masses_[r]),
+                             stretch * rest_lengths_[run.batch]);
     }
   });
   return found;

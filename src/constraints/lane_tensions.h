@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "cloth_sim/constraints/strain_limit.h"
@@ -53,7 +54,7 @@ private:
   static constexpr double excess_at_end = 0.5 * StrainLimit::tolerance;
   static constexpr int there_and_back = 2;
   static constexpr int most_passes_between = 24;
-  static constexpr int follows_a_watch = 2;   ///< so seldom is the excess looked at while nothing falls behind
+  static constexpr int follows_a_watch = 4;   ///< so seldom is the excess looked at while nothing falls behind
   static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
 
   enum class Springs  ///< that are looked at
@@ -77,6 +78,11 @@ private:
   /// A pass, the other way from the last. Returns whether any spring is taut.
   bool relax(LaneNodes& nodes, float stretch, float factor, Springs springs);
   /// To be called before each pass, so many having been made.
+  /// Lists those that are taut, and those with a spring that is too long.
+  void find_taut(const LaneNodes& nodes, float stretch);
+  void list_taut();
+  template <bool is_first>
+  void relax_taut(LaneNodes& nodes, float stretch, float factor);
   void give_momentum(LaneNodes& nodes, int passes);
   void begin_momentum(const LaneNodes& nodes);
   void carry_on_all(LaneNodes& nodes);
@@ -96,6 +102,7 @@ private:
 
   std::vector<float> rest_lengths_;  ///< of the batches, m
   std::vector<Run> runs_;
+  std::vector<std::uint32_t> taut_;  ///< the numbers of the taut ones
   LaneTethers tethers_;
   int vectors_;                          ///< of nodes
   double wanted_margin_ = first_margin;  ///< that the margin approaches

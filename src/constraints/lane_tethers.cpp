@@ -39,7 +39,7 @@ bool has_taut(const float* nodes, const Point& anchor, const float* lengths, flo
 
 /// Returns whether any is taut.
 template <bool fused>
-bool relax_some(float* nodes, const Point& anchor, const float* lengths, float stretch, float* tensions, float factor)
+bool relax_some(float* nodes, const float* masses, const Point& anchor, const float* lengths, float stretch, float* tensions, float factor)
 {
   using namespace lane_node;
   int taut = 0;
@@ -55,8 +55,8 @@ bool relax_some(float* nodes, const Point& anchor, const float* lengths, float s
     const float l_y = anchor.y - nodes[y + k] - nodes[way_y + k] + w * p_y;
     const float l_z = anchor.z - nodes[z + k] - nodes[way_z + k] + w * p_z;
     const float square = l_x * l_x + l_y * l_y + l_z * l_z;
-    const bool is_taut = longest > 0.0F && square > longest * longest && w > 0.0F;
-    const float part = is_taut ? (1.0F - longest * inverse_root<fused>(square)) / w : 0.0F;
+    const bool is_taut = longest > 0.0F && square > longest * longest;
+    const float part = is_taut ? (1.0F - longest * inverse_root<fused>(square)) * masses[k] : 0.0F;
     nodes[way_x + k] += w * (part * l_x - p_x);
     nodes[way_y + k] += w * (part * l_y - p_y);
     nodes[way_z + k] += w * (part * l_z - p_z);
@@ -99,8 +99,14 @@ LaneTethers::LaneTethers(const ClothModel& model, const LaneLayout& layout)
 {
 }
 
-void LaneTethers::hold(const std::vector<int>& held)
+void LaneTethers::prepare(const LaneNodes& nodes, const std::vector<int>& held)
 {
+  masses_.assign(static_cast<size_t>(layout_.nodes()), 0.0F);
+  for (int node = 0; node < layout_.nodes(); ++node)
+  {
+    const float w = nodes.data()[LaneNodes::place_of(node) + lane_node::inverse_mass];
+    masses_[static_cast<size_t>(node)] = w > 0.0F ? 1.0F / w : 0.0F;
+  }
   if (held == held_)
   {
     return;
@@ -163,7 +169,7 @@ void LaneTethers::relax(LaneNodes& nodes, float stretch, float factor)
         if (is_taut || (looks_at_slack && has_taut(some, anchor, lengths, stretch)))
         {
           const bool stays_taut = relax_some<arithmetic.has_fused_multiply_add>(
-              some, anchor, lengths, stretch, tether.tensions.data() + v * LaneVectors::size, factor);
+              some, masses_.data() + v * lanes, anchor, lengths, stretch, tether.tensions.data() + v * LaneVectors::size, factor);
           is_taut = stays_taut ? 1 : 0;
         }
       }

@@ -22,9 +22,9 @@ class LaneTethers
 public:
   LaneTethers(const ClothModel& model, const LaneLayout& layout);
 
-  /// From now on these nodes of the model are held. Where they are many there are no tethers: a pass visits every node
-  /// for each of them.
-  void hold(const std::vector<int>& held);
+  /// To be called whenever the nodes' masses have changed. These nodes of the model are held from now on; where they
+  /// are many there are no tethers: a pass visits every node for each of them.
+  void prepare(const LaneNodes& nodes, const std::vector<int>& held);
 
   /// Adds what the tensions ask for to the shifts of nodes and to the parabola. `stretch`: how long tethers may be, in
   /// lengths at rest.
@@ -58,6 +58,7 @@ private:
   const int nodes_;  ///< of the model
   const bool has_ways_;
   const SpringWays ways_;
+  AlignedNumbers<float> masses_;  ///< of the nodes, kg; 0: held
   std::vector<int> held_;
   std::vector<Tether> tethers_;
   int passes_ = 0;

@@ -8,7 +8,7 @@ namespace
 {
 
 /// i and j: the ends in the blocks of nodes, pull_i and pull_j in those of what they are given.
-template <bool fused, bool records>
+template <bool fused, bool records, bool damped>
 void correct_run(float* i, float* j, const Gains<float>& gains, const float* yields, float* pull_i, float* pull_j)
 {
   using namespace lane_node;
@@ -29,8 +29,10 @@ void correct_run(float* i, float* j, const Gains<float>& gains, const float* yie
     const float l_x = j[x + k] - i[x + k] + d_x;
     const float l_y = j[y + k] - i[y + k] + d_y;
     const float l_z = j[z + k] - i[z + k] + d_z;
-    const float part = yields[k] * correction<fused>(l_x * l_x + l_y * l_y + l_z * l_z,
-                                                     l_x * d_x + l_y * d_y + l_z * d_z, rest_length, damping);
+    const float square = l_x * l_x + l_y * l_y + l_z * l_z;
+    const float lambda = damped ? correction<fused>(square, l_x * d_x + l_y * d_y + l_z * d_z, rest_length, damping) :
+                                  correction<fused>(square, rest_length);
+    const float part = yields[k] * lambda;
     const float part_i = i[inverse_mass + k] * part;
     const float part_j = j[inverse_mass + k] * part;
     i[way_x + k] = way_x_i + part_i * l_x;
@@ -52,7 +54,12 @@ LaneSprings::LaneSprings(const ClothModel& model, const LaneLayout& layout)
 {
   for (const SpringRun& run : layout.runs(model.springs, rows_a_band))
   {
+    if (stretches_.empty() || stretches_.back().batch != run.batch)
+    {
+      stretches_.push_back({ run.batch, runs_.size(), runs_.size() });
+    }
     runs_.emplace_back(run);
+    stretches_.back().end = runs_.size();
   }
 }
 
@@ -88,13 +95,30 @@ void LaneSprings::correct(LaneNodes& nodes, LaneVectors* pulls) const
 template <bool fused, bool records>
 void LaneSprings::correct_all(float* nodes, float* pulls) const
 {
-  for (size_t r = 0; r < runs_.size(); ++r)
+  for (const Stretch& stretch : stretches_)
+  {
+    if (gains_[stretch.batch].damping > 0.0F)
+    {
+      correct_stretch<fused, records, true>(stretch, nodes, pulls);
+    }
+    else
+    {
+      correct_stretch<fused, records, false>(stretch, nodes, pulls);
+    }
+  }
+}
+
+template <bool fused, bool records, bool damped>
+void LaneSprings::correct_stretch(const Stretch& stretch, float* nodes, float* pulls) const
+{
+  const Gains<float> gains = gains_[stretch.batch];
+  for (size_t r = stretch.begin; r < stretch.end; ++r)
   {
     const LaneRun& run = runs_[r];
     float* const pull_i = records ? pulls + LaneVectors::place_of(run.i) : nullptr;
     float* const pull_j = records ? pulls + LaneVectors::place_of(run.j) : nullptr;
-    correct_run<fused, records>(nodes + LaneNodes::place_of(run.i), nodes + LaneNodes::place_of(run.j),
-                                gains_[run.batch], yields_[r], pull_i, pull_j);
+    correct_run<fused, records, damped>(kept(nodes + run.place_i), kept(nodes + run.place_j), gains, kept(yields_[r]),
+                                        pull_i, pull_j);
   }
 }
 

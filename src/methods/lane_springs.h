@@ -25,10 +25,21 @@ public:
   void correct(LaneNodes& nodes, LaneVectors* pulls) const;
 
 private:
+  /// Runs of one batch that follow each other.
+  struct Stretch
+  {
+    size_t batch;
+    size_t begin;
+    size_t end;
+  };
+
   template <bool fused, bool records>
   void correct_all(float* nodes, float* pulls) const;
+  template <bool fused, bool records, bool damped>
+  void correct_stretch(const Stretch& stretch, float* nodes, float* pulls) const;
 
   std::vector<LaneRun> runs_;
+  std::vector<Stretch> stretches_;
   std::vector<Gains<float>> gains_;  ///< of the batches
   LaneTable yields_;                 ///< of every run's springs one over the resistance, kg; 0: no spring
 };

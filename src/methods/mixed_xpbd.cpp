@@ -44,9 +44,9 @@ public:
     const double begin = state.time;
     const double substep = h / substeps_;
     begin_step(dynamics, substep, state);
+    set_out(dynamics, substep, state);
     for (int s = 1; s <= substeps_; ++s)
     {
-      set_out(dynamics, substep, state);
       state.time = s == substeps_ ? begin + h : begin + s * substep;
       move_held(dynamics.pins(), state);
       if (records())
@@ -58,8 +58,12 @@ public:
       {
         report.limit_sweeps += shorten(s == substeps_);
       }
-      arrive();
+      if (s < substeps_)
+      {
+        go_on(dynamics, substep, state);
+      }
     }
+    arrive();
     end_step(dynamics.pins(), substep, state);
     report.force_evaluations = substeps_;
     return report;
@@ -85,33 +89,19 @@ private:
     LaneBlocks<1> remainders;  ///< what the air leaves of a speed
     LaneSprings springs;
     LaneTensions limit;
-    float substep = 0.0F;  ///< that springs and limit are prepared for, with these nodes held
+    float substep = 0.0F;  ///< that all is prepared for, s, with this damping times it, kg/m2, and these nodes held
+    float damping = 0.0F;
     std::vector<int> held;
     LaneVectors pulls;  ///< what springs gave to nodes in this step, kg m, where that is recorded
   };
 
   void begin_step(const Dynamics& dynamics, double substep, const ClothState& state)
   {
-    const ClothModel& model = dynamics.model();
-    Sheet& sheet = *sheet_;
-    inverse_masses_.resize(model.nodes());
-    dynamics.pins().find_inverse_masses(model.masses, inverse_masses_);
-    const Air& air = dynamics.air();
-    const double damping = air.is_coupled(model) ? 0.0 : substep * air.properties().viscous_damping;
-    for (int node = 0; node < model.nodes(); ++node)
-    {
-      const double mass = model.masses[node];
-      const int number = sheet.layout[node];
-      sheet.nodes.data()[sheet.places[static_cast<size_t>(node)] + lane_node::inverse_mass] =
-          static_cast<float>(inverse_masses_[node]);
-      sheet.remainders.data()[LaneBlocks<1>::place_of(number)] =
-          static_cast<float>(mass / (mass + damping * model.areas[node]));
-    }
-    take(substep, state);
     prepare(dynamics, substep);
+    take(substep, state);
     if (records())
     {
-      sheet.pulls.set_zero(sheet.layout.nodes());
+      sheet_->pulls.set_zero(sheet_->layout.nodes());
     }
   }
 
@@ -123,13 +113,34 @@ private:
       held.insert(held.end(), pin.nodes.begin(), pin.nodes.end());
     }
     Sheet& sheet = *sheet_;
-    const auto rounded = static_cast<float>(substep);
-    if (rounded != sheet.substep || held != sheet.held)
+    const Air& air = dynamics.air();
+    const auto rounded = static_cast<float>(substep);  // steps to points in time differ in their last digits
+    const float damping =
+        air.is_coupled(dynamics.model()) ? 0.0F : rounded * static_cast<float>(air.properties().viscous_damping);
+    if (rounded != sheet.substep || damping != sheet.damping || held != sheet.held)
     {
       sheet.substep = rounded;
+      sheet.damping = damping;
       sheet.held.swap(held);
+      prepare_nodes(dynamics, damping);
       sheet.springs.prepare(dynamics.model(), compliance_, rounded, sheet.nodes);
       sheet.limit.prepare(sheet.nodes, sheet.held);
+    }
+  }
+
+  void prepare_nodes(const Dynamics& dynamics, float damping)
+  {
+    const ClothModel& model = dynamics.model();
+    Sheet& sheet = *sheet_;
+    Eigen::VectorXd inverse_masses(model.nodes());
+    dynamics.pins().find_inverse_masses(model.masses, inverse_masses);
+    for (int node = 0; node < model.nodes(); ++node)
+    {
+      const double mass = model.masses[node];
+      sheet.nodes.data()[sheet.places[static_cast<size_t>(node)] + lane_node::inverse_mass] =
+          static_cast<float>(inverse_masses[node]);
+      sheet.remainders.data()[LaneBlocks<1>::place_of(sheet.layout[node])] =
+          static_cast<float>(mass / (mass + damping * model.areas[node]));
     }
   }
 
@@ -165,13 +176,13 @@ private:
   void for_each_coordinate(Visit&& visit)
   {
     float* const nodes = sheet_->nodes.data();
-    for (int d = 0; d < 3; ++d)
+    for (size_t node = 0; node < sheet_->places.size(); ++node)
     {
-      for (size_t node = 0; node < sheet_->places.size(); ++node)
+      float* const at = nodes + sheet_->places[node];
+      const bool is_held = at[lane_node::inverse_mass] == 0.0F;
+      for (int d = 0; d < 3; ++d)
       {
-        float* const at = nodes + sheet_->places[node];
-        visit(static_cast<int>(node), d, at[lane_node::x + d * lanes], at[lane_node::way_x + d * lanes],
-              at[lane_node::inverse_mass] == 0.0F);
+        visit(static_cast<int>(node), d, at[lane_node::x + d * lanes], at[lane_node::way_x + d * lanes], is_held);
       }
     }
   }
@@ -179,7 +190,6 @@ private:
   /// From the ways of the last substep to those that nothing but gravity and air changes; held nodes stay.
   void set_out(const Dynamics& dynamics, double h, ClothState& state)
   {
-    using namespace lane_node;
     part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
     if (dynamics.air().is_coupled(dynamics.model()))
     {
@@ -189,31 +199,75 @@ private:
       take(h, state);
       return;
     }
-    const Eigen::Vector3f fall = (h * h * dynamics.gravity()).cast<float>();
-    for_each_vector([fall_x = fall[0], fall_y = fall[1], fall_z = fall[2]](float* node, const float* remainder) {
+    for_each_vector([fall = fall_in(dynamics, h)](float* node, const float* remainder) {
 #pragma GCC ivdep
       for (int k = 0; k < lanes; ++k)
       {
-        const float part = node[inverse_mass + k] > 0.0F ? remainder[k] : 0.0F;
-        node[way_x + k] = part * (node[way_x + k] + fall_x);
-        node[way_y + k] = part * (node[way_y + k] + fall_y);
-        node[way_z + k] = part * (node[way_z + k] + fall_z);
+        set_out_one(node + k, remainder[k], fall);
       }
     });
   }
 
   void arrive()
   {
-    using namespace lane_node;
     for_each_vector([](float* node, const float* /*remainder*/) {
 #pragma GCC ivdep
       for (int k = 0; k < lanes; ++k)
       {
-        node[x + k] += node[way_x + k];
-        node[y + k] += node[way_y + k];
-        node[z + k] += node[way_z + k];
+        arrive_one(node + k);
       }
     });
+  }
+
+  /// Arrives, and sets out again.
+  void go_on(const Dynamics& dynamics, double h, ClothState& state)
+  {
+    if (dynamics.air().is_coupled(dynamics.model()))
+    {
+      arrive();
+      set_out(dynamics, h, state);
+      return;
+    }
+    part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
+    for_each_vector([fall = fall_in(dynamics, h)](float* node, const float* remainder) {
+#pragma GCC ivdep
+      for (int k = 0; k < lanes; ++k)
+      {
+        arrive_one(node + k);
+        set_out_one(node + k, remainder[k], fall);
+      }
+    });
+  }
+
+  struct Fall
+  {
+    float x;
+    float y;
+    float z;
+  };
+
+  /// What gravity adds to a way in a substep.
+  static Fall fall_in(const Dynamics& dynamics, double h)
+  {
+    const Eigen::Vector3f fall = (h * h * dynamics.gravity()).cast<float>();
+    return { fall[0], fall[1], fall[2] };
+  }
+
+  static void arrive_one(float* node)
+  {
+    using namespace lane_node;
+    node[x] += node[way_x];
+    node[y] += node[way_y];
+    node[z] += node[way_z];
+  }
+
+  static void set_out_one(float* node, float remainder, const Fall& fall)
+  {
+    using namespace lane_node;
+    const float part = node[inverse_mass] > 0.0F ? remainder : 0.0F;
+    node[way_x] = part * (node[way_x] + fall.x);
+    node[way_y] = part * (node[way_y] + fall.y);
+    node[way_z] = part * (node[way_z] + fall.z);
   }
 
   /// work(nodes, remainders) for all vectors of nodes.
@@ -307,7 +361,6 @@ private:
   float rate_ = 0.0F;          ///< velocities over ways, 1/s
   std::vector<Eigen::RowVector3d> held_before_;
   Vectors forces_;
-  Eigen::VectorXd inverse_masses_;
 };
 
 }  // namespace

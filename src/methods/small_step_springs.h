@@ -40,4 +40,11 @@ Scalar correction(Scalar square, Scalar product, Scalar rest_length, Scalar damp
   return (square * inverse - rest_length + damping * (inverse * product)) * inverse;
 }
 
+/// Of a spring without damping.
+template <bool fused, typename Scalar>
+Scalar correction(Scalar square, Scalar rest_length)
+{
+  return Scalar(1) - rest_length * inverse_root<fused>(square);
+}
+
 }  // namespace cloth

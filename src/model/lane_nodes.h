@@ -74,6 +74,17 @@ inline constexpr int z = 2 * lanes;
 
 using LaneVectors = LaneBlocks<3>;
 
+/// The same address, kept in a register as it is: what lies near it is then loaded and stored at a distance from it,
+/// where compilers make up an address for every number otherwise.
+template <typename Number>
+Number* kept(Number* address)
+{
+#if defined(__GNUC__)
+  asm("" : "+r"(address));
+#endif
+  return address;
+}
+
 /// Adds a vector of spring k, times a number for each end, to what `i` has at its first end, and takes it from what `j`
 /// has at its second: all is read before anything is written, as the two may lie in one block.
 inline void add_to_ends(float* i, float* j, int k, float x, float y, float z, float times_i, float times_j)
@@ -92,10 +103,16 @@ inline void add_to_ends(float* i, float* j, int k, float x, float y, float z, fl
   j[lane_vector::z + k] = z_j;
 }
 
-/// A vector of springs: the numbers of their first ends, and of the second.
+/// A vector of springs: the numbers of their first ends, and of the second, and where both are among LaneNodes.
 struct LaneRun
 {
-  explicit LaneRun(const SpringRun& run) : batch(run.batch), i(run.node), j(run.node + run.offset), n(run.n)
+  explicit LaneRun(const SpringRun& run)
+    : batch(run.batch)
+    , i(run.node)
+    , j(run.node + run.offset)
+    , n(run.n)
+    , place_i(LaneNodes::place_of(i))
+    , place_j(LaneNodes::place_of(j))
   {
   }
 
@@ -103,6 +120,8 @@ struct LaneRun
   int i;
   int j;
   int n;
+  int place_i;
+  int place_j;
 };
 
 }  // namespace cloth
