@@ -222,10 +222,10 @@ float LaneTensions::pull_as_before(LaneNodes& nodes, float stretch)
     for (const size_t r : taut_)
     {
       const LaneRun& springs = runs_[r].springs;
-      add_run_shifts<arithmetic.has_fused_multiply_add>(
-          kept(at + springs.place_i), kept(at + springs.place_j), kept(tensions_of(r)),
-          stretch * rest_lengths_[springs.batch], kept(shifts + LaneVectors::place_of(springs.i)),
-          kept(shifts + LaneVectors::place_of(springs.j)), parabola);
+      add_run_shifts<arithmetic.has_fused_multiply_add>(kept(at + springs.place_i), kept(at + springs.place_j),
+                                                        kept(tensions_of(r)), stretch * rest_lengths_[springs.batch],
+                                                        kept(shifts + LaneVectors::place_of(springs.i)),
+                                                        kept(shifts + LaneVectors::place_of(springs.j)), parabola);
     }
     for (int v = 0; v < vectors_; ++v)
     {
@@ -288,8 +288,8 @@ void LaneTensions::find_taut(const LaneNodes& nodes, float stretch)
     for (size_t r = 0; r < runs_.size(); ++r)
     {
       const LaneRun& springs = runs_[r].springs;
-      const bool is_longer = run_has_longer(kept(at + springs.place_i), kept(at + springs.place_j), kept(reduced_masses_[r]),
-                                            stretch * rest_lengths_[springs.batch]);
+      const bool is_longer = run_has_longer(kept(at + springs.place_i), kept(at + springs.place_j),
+                                            kept(reduced_masses_[r]), stretch * rest_lengths_[springs.batch]);
       taut_[found] = static_cast<std::uint32_t>(r);
       found += runs_[r].is_taut | is_longer ? 1 : 0;
     }

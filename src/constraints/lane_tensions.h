@@ -50,14 +50,15 @@ private:
   static constexpr double margin_speed = 0.3;  ///< 1/s, at most: springs that are tightened faster shake the sheet
   /// The excess that there may be, relative to max_strain. Rounding of the positions takes its part of
   /// StrainLimit::tolerance.
-  static constexpr double excess_between = 0.05;
+  static constexpr double excess_between = 0.2;
   static constexpr double excess_at_end = 0.5 * StrainLimit::tolerance;
   static constexpr int there_and_back = 2;
   static constexpr int most_passes_between = 24;
-  static constexpr int follows_a_watch = 4;   ///< so seldom is the excess looked at while nothing falls behind
+  static constexpr int follows_a_watch =
+      4;  ///< so seldom are slack springs and the excess looked at while none is behind
   static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
 
-  enum class Springs  ///< that are looked at
+  enum class Springs  ///< that are looked at; those that have grown too long join the taut ones
   {
     taut,
     all

@@ -39,7 +39,8 @@ bool has_taut(const float* nodes, const Point& anchor, const float* lengths, flo
 
 /// Returns whether any is taut.
 template <bool fused>
-bool relax_some(float* nodes, const float* masses, const Point& anchor, const float* lengths, float stretch, float* tensions, float factor)
+bool relax_some(float* nodes, const float* masses, const Point& anchor, const float* lengths, float stretch,
+                float* tensions, float factor)
 {
   using namespace lane_node;
   int taut = 0;
@@ -168,8 +169,9 @@ void LaneTethers::relax(LaneNodes& nodes, float stretch, float factor)
         const float* const lengths = tether.lengths.data() + v * lanes;
         if (is_taut || (looks_at_slack && has_taut(some, anchor, lengths, stretch)))
         {
-          const bool stays_taut = relax_some<arithmetic.has_fused_multiply_add>(
-              some, masses_.data() + v * lanes, anchor, lengths, stretch, tether.tensions.data() + v * LaneVectors::size, factor);
+          const bool stays_taut =
+              relax_some<arithmetic.has_fused_multiply_add>(some, masses_.data() + v * lanes, anchor, lengths, stretch,
+                                                            tether.tensions.data() + v * LaneVectors::size, factor);
           is_taut = stays_taut ? 1 : 0;
         }
       }
