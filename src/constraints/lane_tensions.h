@@ -54,8 +54,8 @@ private:
   static constexpr double excess_at_end = 0.5 * StrainLimit::tolerance;
   static constexpr int there_and_back = 2;
   static constexpr int most_passes_between = 24;
-  static constexpr int follows_a_watch =
-      4;  ///< so seldom are slack springs and the excess looked at while none is behind
+  /// So seldom are slack springs and the excess looked at while nothing falls behind.
+  static constexpr int follows_a_watch = 4;
   static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
 
   enum class Springs  ///< that are looked at; those that have grown too long join the taut ones
@@ -78,12 +78,13 @@ private:
   float pull_as_before(LaneNodes& nodes, float stretch);
   /// A pass, the other way from the last. Returns whether any spring is taut.
   bool relax(LaneNodes& nodes, float stretch, float factor, Springs springs);
-  /// To be called before each pass, so many having been made.
-  /// Lists those that are taut, and those with a spring that is too long.
-  void find_taut(const LaneNodes& nodes, float stretch);
-  void list_taut();
   template <bool is_first>
   void relax_taut(LaneNodes& nodes, float stretch, float factor);
+  /// Lists the runs that are taut, and those with a spring that is too long.
+  void find_taut(const LaneNodes& nodes, float stretch);
+  /// Lists those that are taut.
+  void list_taut();
+  /// To be called before each pass, so many having been made.
   void give_momentum(LaneNodes& nodes, int passes);
   void begin_momentum(const LaneNodes& nodes);
   void carry_on_all(LaneNodes& nodes);
