@@ -22,6 +22,8 @@ namespace
 /// in a step, shorter than anyone would notice.
 constexpr std::chrono::microseconds patience{ 50 };
 
+/// Leaves the processor to the other thread of its core for a moment. Not after every look: a virtual machine whose
+/// processor pauses again and again is put aside by its host, and comes back microseconds late.
 void pause()
 {
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -33,7 +35,7 @@ void pause()
 template <typename Condition>
 bool look_for(Condition&& is_met)
 {
-  constexpr int looks = 64;  // between two looks at the clock
+  constexpr int looks = 64;  // between two pauses and looks at the clock
   const auto end = std::chrono::steady_clock::now() + patience;
   do
   {
@@ -43,8 +45,8 @@ bool look_for(Condition&& is_met)
       {
         return true;
       }
-      pause();
     }
+    pause();
   } while (std::chrono::steady_clock::now() < end);
   return false;
 }
