@@ -1,51 +1,12 @@
 #pragma once
 
-#include <cstddef>
-#include <new>
-#include <vector>
-
+#include "cloth_sim/model/aligned_numbers.h"
 #include "cloth_sim/model/spring_rows.h"
 
 namespace cloth
 {
 
-/// Memory that begins where a vector register does.
-template <typename Scalar>
-struct AlignedAllocator
-{
-  using value_type = Scalar;
-
-  AlignedAllocator() = default;
-  template <typename Other>
-  AlignedAllocator(const AlignedAllocator<Other>& /*other*/)
-  {
-  }
-
-  Scalar* allocate(std::size_t n)
-  {
-    return static_cast<Scalar*>(::operator new(n * sizeof(Scalar), alignment));
-  }
-  void deallocate(Scalar* memory, std::size_t /*n*/)
-  {
-    ::operator delete(memory, alignment);
-  }
-  friend bool operator==(const AlignedAllocator& /*a*/, const AlignedAllocator& /*b*/)
-  {
-    return true;
-  }
-  friend bool operator!=(const AlignedAllocator& /*a*/, const AlignedAllocator& /*b*/)
-  {
-    return false;
-  }
-
-  static constexpr std::align_val_t alignment{ 64 };
-};
-
-template <typename Scalar>
-using AlignedNumbers = std::vector<Scalar, AlignedAllocator<Scalar>>;
-
-/// Vectors by columns, each of which begins where a vector register does: loads that lie across two lines of the cache
-/// take twice as long.
+/// Vectors by columns, each of which begins where a vector register does.
 template <typename Scalar>
 class AlignedVectors
 {
