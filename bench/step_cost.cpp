@@ -38,6 +38,8 @@ struct Case
   const char* method = default_method;
   VectorWidth width = vector_widths().back();
   int threads = 1;
+  Precision precision = Precision::in_double;
+  int substeps = 1;  ///< a step; each counts as one
 };
 
 /// A sheet that falls from the horizontal, held at two corners; a ripple makes all springs long and short.
@@ -72,13 +74,15 @@ void step(benchmark::State& state, const Case& measured)
   dynamics.pins().hold({ "corners", corners, cloth.positions(corners, Eigen::all), {}, {} });
   dynamics.use_threads(measured.threads);
   MethodSettings settings;
-  settings.iterations = 1;
+  settings.iterations = measured.substeps;
+  settings.precision = measured.precision;
+  const double h = measured.substeps * time_step;
   const std::unique_ptr<Method> method = find_method(measured.method)->make(settings);
   use_vector_width(measured.width);
-  method->step(dynamics, time_step, cloth);
+  method->step(dynamics, h, cloth);
   for (auto _ : state)
   {
-    method->step(dynamics, time_step, cloth);
+    method->step(dynamics, h, cloth);
   }
   use_vector_width(vector_widths().back());
   std::size_t springs = 0;
@@ -86,7 +90,7 @@ void step(benchmark::State& state, const Case& measured)
   {
     springs += static_cast<std::size_t>(batch.size());
   }
-  report(state, springs);
+  report(state, springs * static_cast<std::size_t>(measured.substeps));
 }
 
 void plain_step(benchmark::State& state, int nodes_a_side)
@@ -179,6 +183,11 @@ void add_all_of_a_size(int n)
       add(of_method);
     }
   }
+  Case mixed{ "precision:mixed", n };
+  mixed.method = "xpbd";
+  mixed.precision = Precision::mixed;
+  mixed.substeps = 32;
+  add(mixed);
   add_threads(n);
 }
 

@@ -8,6 +8,7 @@
 #include "../model/lane_nodes.h"
 #include "../model/spring_layout.h"
 #include "lane_springs.h"
+#include "lane_wind.h"
 #include "rows.h"
 
 namespace cloth
@@ -17,8 +18,7 @@ namespace
 
 /// The method of xpbd.cpp in mixed precision: the state is kept in doubles, and a step adds to it what its substeps
 /// come to in single precision, positions relative to the sheet's middle. Nodes are in the order of LaneLayout. A
-/// strain limit is followed in every substep and kept at the end of each step. Wind along normals is worked out in
-/// doubles.
+/// strain limit is followed in every substep and kept at the end of each step.
 class MixedPositionBasedDynamics : public Method
 {
 public:
@@ -48,12 +48,14 @@ public:
     for (int s = 1; s <= substeps_; ++s)
     {
       state.time = s == substeps_ ? begin + h : begin + s * substep;
+      count_calls(dynamics);
       move_held(dynamics.pins(), state);
       if (records())
       {
+        give(state);
         record_external_forces(dynamics, substep, state);
       }
-      correct(dynamics.model());
+      correct();
       if (max_strain_ > 0.0)
       {
         report.limit_sweeps += shorten(s == substeps_);
@@ -73,7 +75,8 @@ private:
   /// What does not change from step to step, and what a step hands on to the next.
   struct Sheet
   {
-    explicit Sheet(const ClothModel& model) : layout(model), springs(model, layout), limit(model, layout)
+    explicit Sheet(const ClothModel& model)
+      : layout(model), springs(model, layout), wind(model, layout), limit(model, layout)
     {
       for (int node = 0; node < model.nodes(); ++node)
       {
@@ -88,9 +91,11 @@ private:
     LaneNodes nodes;
     LaneBlocks<1> remainders;  ///< what the air leaves of a speed
     LaneSprings springs;
+    LaneWind wind;
     LaneTensions limit;
-    float substep = 0.0F;  ///< that all is prepared for, s, with this damping times it, kg/m2, and these nodes held
-    float damping = 0.0F;
+    float substep = 0.0F;  ///< that all is prepared for, s, with this air, N s/m per m2, and these nodes held
+    double viscous_damping = 0.0;
+    double wind_coupling = 0.0;
     std::vector<int> held;
     LaneVectors pulls;  ///< what springs gave to nodes in this step, kg m, where that is recorded
   };
@@ -113,25 +118,30 @@ private:
       held.insert(held.end(), pin.nodes.begin(), pin.nodes.end());
     }
     Sheet& sheet = *sheet_;
-    const Air& air = dynamics.air();
+    const AirProperties& air = dynamics.air().properties();
     const auto rounded = static_cast<float>(substep);  // steps to points in time differ in their last digits
-    const float damping =
-        air.is_coupled(dynamics.model()) ? 0.0F : rounded * static_cast<float>(air.properties().viscous_damping);
-    if (rounded != sheet.substep || damping != sheet.damping || held != sheet.held)
+    if (rounded != sheet.substep || air.viscous_damping != sheet.viscous_damping ||
+        air.wind_coupling != sheet.wind_coupling || held != sheet.held)
     {
       sheet.substep = rounded;
-      sheet.damping = damping;
+      sheet.viscous_damping = air.viscous_damping;
+      sheet.wind_coupling = air.wind_coupling;
       sheet.held.swap(held);
-      prepare_nodes(dynamics, damping);
+      prepare_nodes(dynamics, substep);
       sheet.springs.prepare(dynamics.model(), compliance_, rounded, sheet.nodes);
+      if (dynamics.air().is_coupled(dynamics.model()))
+      {
+        sheet.wind.prepare(dynamics.model(), air, substep, sheet.layout, sheet.nodes);
+      }
       sheet.limit.prepare(sheet.nodes, sheet.held);
     }
   }
 
-  void prepare_nodes(const Dynamics& dynamics, float damping)
+  void prepare_nodes(const Dynamics& dynamics, double substep)
   {
     const ClothModel& model = dynamics.model();
     Sheet& sheet = *sheet_;
+    const double damping = substep * sheet.viscous_damping;
     Eigen::VectorXd inverse_masses(model.nodes());
     dynamics.pins().find_inverse_masses(model.masses, inverse_masses);
     for (int node = 0; node < model.nodes(); ++node)
@@ -188,17 +198,8 @@ private:
   }
 
   /// From the ways of the last substep to those that nothing but gravity and air changes; held nodes stay.
-  void set_out(const Dynamics& dynamics, double h, ClothState& state)
+  void set_out(const Dynamics& dynamics, double h, const ClothState& state)
   {
-    part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
-    if (dynamics.air().is_coupled(dynamics.model()))
-    {
-      give(state);
-      state.velocities.rowwise() += h * dynamics.gravity().transpose();
-      dynamics.air().damp_implicitly(dynamics.model(), state.time + h, state.positions, h, state.velocities);
-      take(h, state);
-      return;
-    }
     for_each_vector([fall = fall_in(dynamics, h)](float* node, const float* remainder) {
 #pragma GCC ivdep
       for (int k = 0; k < lanes; ++k)
@@ -206,6 +207,7 @@ private:
         set_out_one(node + k, remainder[k], fall);
       }
     });
+    blow(dynamics, h, state);
   }
 
   void arrive()
@@ -220,15 +222,8 @@ private:
   }
 
   /// Arrives, and sets out again.
-  void go_on(const Dynamics& dynamics, double h, ClothState& state)
+  void go_on(const Dynamics& dynamics, double h, const ClothState& state)
   {
-    if (dynamics.air().is_coupled(dynamics.model()))
-    {
-      arrive();
-      set_out(dynamics, h, state);
-      return;
-    }
-    part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
     for_each_vector([fall = fall_in(dynamics, h)](float* node, const float* remainder) {
 #pragma GCC ivdep
       for (int k = 0; k < lanes; ++k)
@@ -237,6 +232,16 @@ private:
         set_out_one(node + k, remainder[k], fall);
       }
     });
+    blow(dynamics, h, state);
+  }
+
+  void blow(const Dynamics& dynamics, double h, const ClothState& state)
+  {
+    const Air& air = dynamics.air();
+    if (air.is_coupled(dynamics.model()))
+    {
+      sheet_->wind.blow((h * air.wind_at(state.time + h)).cast<float>(), sheet_->nodes);
+    }
   }
 
   struct Fall
@@ -304,13 +309,21 @@ private:
     }
   }
 
-  void correct(const ClothModel& model)
+  void count_calls(const Dynamics& dynamics) const
   {
-    for (const SpringBatch& batch : model.springs)
+    const Air& air = dynamics.air();
+    part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
+    part_calls()[Part::viscous_damping] += air.properties().viscous_damping > 0.0 ? 1 : 0;
+    part_calls()[Part::wind] += air.is_coupled(dynamics.model()) ? 1 : 0;
+    for (const SpringBatch& batch : dynamics.model().springs)
     {
       count_call(batch);
       part_calls()[Part::internal_damping] += compliance_ * batch.damping > 0.0 ? 1 : 0;
     }
+  }
+
+  void correct()
+  {
     Sheet& sheet = *sheet_;
     sheet.springs.correct(sheet.nodes, records() ? &sheet.pulls : nullptr);
   }

@@ -203,6 +203,24 @@ TEST(MixedPrecision, TellsWhatTheSheetDoesToItsPins)
   EXPECT_LT((0.5 * (weight - on_pins) - momentum()).norm(), 1e-4 * 0.5 * weight.norm());
 }
 
+/// The wind on held nodes goes by the normals of where the sheet is at the time.
+TEST(MixedPrecision, TellsWhatTheWindDoesToPins)
+{
+  const auto force_on_left = [](Precision precision) -> Eigen::Vector3d {
+    SimulationSetup setup = level_sheet(10, 20, 100, precision);
+    setup.air.wind_coupling = 1.0;
+    setup.air.wind = { 1.0, 2.0, 8.0 };
+    Simulation simulation(std::move(setup));
+    EXPECT_TRUE(simulation.advance_to(5.0 * frame));
+    simulation.measure_reactions(true);
+    EXPECT_TRUE(simulation.advance_to(6.0 * frame));
+    return simulation.reaction_on(*simulation.pins().find("left")).force;
+  };
+  const Eigen::Vector3d expected = force_on_left(Precision::in_double);
+  EXPECT_GT(expected.norm(), 0.1);
+  EXPECT_LT((force_on_left(Precision::mixed) - expected).norm(), 0.02 * expected.norm());
+}
+
 /// Single precision is rounded in another order in vectors of another width.
 TEST(MixedPrecision, IsTheSameInAnyVectorsButForRounding)
 {
