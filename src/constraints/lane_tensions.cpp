@@ -168,10 +168,14 @@ void LaneTensions::prepare(const LaneNodes& nodes, const std::vector<int>& held)
 
 int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes, double h)
 {
+  if (follows_ == 0)
+  {
+    choose_first_margin(nodes, max_strain);
+  }
   margin_ += std::clamp(wanted_margin_ - margin_, -margin_speed * h, margin_speed * h);
   const float target = stretch_held(max_strain);
   const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_between));
-  const bool is_watched = falls_behind_ || ++follows_ % follows_a_watch == 0;
+  const bool is_watched = ++follows_ % follows_a_watch == 0 || falls_behind_;
   const int allowed = std::min(passes, is_watched ? most_passes_between : there_and_back);
   float factor = pull_as_before(nodes, target);
   int done = 0;
@@ -209,6 +213,15 @@ int LaneTensions::finish(LaneNodes& nodes, double max_strain, int passes)
 float LaneTensions::stretch_held(double max_strain) const
 {
   return static_cast<float>(1.0 + max_strain * (1.0 - margin_));
+}
+
+void LaneTensions::choose_first_margin(const LaneNodes& nodes, double max_strain)
+{
+  while (margin_ > least_margin && has_longer(nodes, stretch_held(max_strain), Springs::all))
+  {
+    margin_ = std::max(margin_ / margin_growth, least_margin);
+  }
+  wanted_margin_ = margin_;
 }
 
 float LaneTensions::pull_as_before(LaneNodes& nodes, float stretch)

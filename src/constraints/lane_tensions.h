@@ -40,7 +40,8 @@ public:
   void add_tensions_to(LaneVectors& pulls) const;
 
 private:
-  /// Relative to max_strain. The margin is the first to begin with, and anew when the sheet falls behind.
+  /// Relative to max_strain. The margin is the first to begin with, or as much less as it takes to tighten no spring at
+  /// once, and grows from the first when the sheet falls behind.
   static constexpr double first_margin = 0.15;
   /// At less, single precision shakes springs of a sheet at rest out of it.
   static constexpr double least_margin = 0.01;
@@ -73,6 +74,7 @@ private:
 
   /// Of springs at the margin, in lengths at rest.
   float stretch_held(double max_strain) const;
+  void choose_first_margin(const LaneNodes& nodes, double max_strain);
   /// Pulls with the tensions of the last substep times the factor that is best for them, and returns it: tensions are
   /// multiplied by it in the pass that follows.
   float pull_as_before(LaneNodes& nodes, float stretch);
@@ -111,7 +113,7 @@ private:
   double margin_ = first_margin;
   bool falls_behind_ = false;  ///< two passes a substep were not enough
   bool backwards_ = false;     ///< the last pass
-  int follows_ = 0;
+  std::uint64_t follows_ = 0;
   LaneVectors tensions_;      ///< of every run, kg m
   LaneTable reduced_masses_;  ///< of every run's springs 1/(1/m_i + 1/m_j), kg; 0: none, or held at both ends
   LaneVectors shifts_;        ///< what the tensions of the last substep ask for, m

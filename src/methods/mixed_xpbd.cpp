@@ -314,7 +314,10 @@ private:
     const Air& air = dynamics.air();
     part_calls()[Part::gravity] += dynamics.gravity().isZero(0.0) ? 0 : 1;
     part_calls()[Part::viscous_damping] += air.properties().viscous_damping > 0.0 ? 1 : 0;
-    part_calls()[Part::wind] += air.is_coupled(dynamics.model()) ? 1 : 0;
+    for (const Part part : { Part::wind, Part::normals })
+    {
+      part_calls()[part] += air.is_coupled(dynamics.model()) ? 1 : 0;
+    }
     for (const SpringBatch& batch : dynamics.model().springs)
     {
       count_call(batch);

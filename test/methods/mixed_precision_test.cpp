@@ -134,6 +134,20 @@ TEST(MixedPrecision, TakesLittleMoreThanTwoPassesOfTheLimitASubstepWhateverTheGr
   }
 }
 
+/// A margin that is there from the first would pull together what is stretched nearly as far as it may be.
+TEST(MixedPrecision, LeavesAloneWhatStartsBelowItsLimit)
+{
+  const auto contracted = [](double max_strain) {
+    SimulationSetup setup = level_sheet(16, 16, 16, Precision::mixed);
+    setup.gravity.setZero();
+    setup.pins.clear();
+    setup.start.positions *= 1.045;
+    setup.strain_limit = { max_strain, 300, LimitSolver::tensions };
+    return positions_at(0.1 * frame, std::move(setup));
+  };
+  EXPECT_EQ(farthest(contracted(0.05), contracted(0.0)), 0.0);
+}
+
 /// The margin below the limit is for commotion: a sheet that has come to rest hangs as long as its limit lets it.
 TEST(MixedPrecision, LetsASheetAtRestReachItsLimit)
 {
