@@ -2,6 +2,8 @@
 // sheet, for both ways to shorten springs; and how many passes a stretched chain takes from nothing, against its
 // length.
 
+#include <algorithm>
+#include <cstdint>
 #include <ctime>
 #include <map>
 #include <memory>
@@ -10,6 +12,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "cloth_sim/forces/springs.h"
 #include "cloth_sim/methods/method.h"
 #include "level_sheet.h"
 
@@ -102,6 +105,31 @@ void apply(benchmark::State& benchmark, LimitSolver solver)
   benchmark.counters["a_spring_and_pass"] = all / (passes * springs_of(sheet.model));
 }
 
+/// Of xpbd in mixed precision, where the limit is part of the substeps: a second of frames after the sheet has fallen.
+void in_mixed_precision(benchmark::State& benchmark)
+{
+  constexpr double frame = 1.0 / 60.0;
+  constexpr int frames_before = 18;
+  const int nodes_a_side = static_cast<int>(benchmark.range(0));
+  const int substeps = nodes_a_side / 4;
+  Simulation simulation = simulation_of(LevelSheet(nodes_a_side), { max_strain, 300, LimitSolver::tensions }, "xpbd",
+                                        frame, { 1e-3, substeps, 1.0, Precision::mixed });
+  simulation.advance_to(frames_before * frame);
+  const std::uint64_t passes_before = simulation.counters().limit_sweeps;
+  double worst = 0.0;
+  int frames = frames_before;
+  for (auto _ : benchmark)
+  {
+    simulation.advance_to(++frames * frame);
+    benchmark.PauseTiming();
+    worst = std::max(worst, cloth::max_strain(simulation.model(), simulation.state().positions));
+    benchmark.ResumeTiming();
+  }
+  const auto passes = static_cast<double>(simulation.counters().limit_sweeps - passes_before);
+  benchmark.counters["passes_a_substep"] = passes / (substeps * static_cast<double>(benchmark.iterations()));
+  benchmark.counters["worst_strain"] = worst;
+}
+
 /// A chain that is stretched by a fifth all along, and of which nothing is known.
 void from_nothing(benchmark::State& benchmark, LimitSolver solver)
 {
@@ -132,6 +160,12 @@ void by_size(benchmark::internal::Benchmark* benchmark)
 
 BENCHMARK_CAPTURE(apply, tensions, LimitSolver::tensions)->Apply(by_size)->Arg(256);
 BENCHMARK_CAPTURE(apply, plain_sweeps, LimitSolver::plain_sweeps)->Apply(by_size);
+BENCHMARK(in_mixed_precision)
+    ->ArgName("nodes_a_side")
+    ->RangeMultiplier(2)
+    ->Range(16, 256)
+    ->Iterations(measured_steps)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(from_nothing, tensions, LimitSolver::tensions)->Apply(by_length);
 BENCHMARK_CAPTURE(from_nothing, plain_sweeps, LimitSolver::plain_sweeps)->Apply(by_length);
 
