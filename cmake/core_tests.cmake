@@ -26,6 +26,7 @@ cloth_add_test(model
   test/model/inverse_root_test.cpp
   test/model/lane_table_test.cpp
   test/model/spring_layout_test.cpp
+  test/model/vectors_test.cpp
 )
 target_include_directories(test_model PRIVATE src/model)
 cloth_add_test(forces
