@@ -1,6 +1,6 @@
 // What the strain limit costs after a step: passes over the springs, and the time of each, against the size of the
-// sheet, for both ways to shorten springs; and how many passes a stretched chain takes from nothing, against its
-// length.
+// sheet, for both ways to shorten springs; how many passes a substep takes in mixed precision; and how many a stretched
+// chain takes from nothing, against its length.
 
 #include <algorithm>
 #include <cstdint>

@@ -19,7 +19,8 @@ using Vectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::DontAlign>;
 
 }  // namespace cloth
 
-/// The memory of cloth::Vectors, with what Eigen (3.3 and 3.4) asks of every DenseStorage.
+/// The memory of cloth::Vectors, with what Eigen asks of every DenseStorage. Throws std::bad_alloc where there is no
+/// more.
 template <>
 class Eigen::DenseStorage<double, Eigen::Dynamic, Eigen::Dynamic, 3, Eigen::DontAlign>
 {
