@@ -148,7 +148,10 @@ bool are_the_same(const SpringRun& a, const SpringRun& b)
 }  // namespace
 
 SpringTensions::SpringTensions(const ClothModel& model)
-  : batches_(limited_batches(model)), nodes_(model.nodes()), moved_at_(static_cast<size_t>(nodes_ / mark_size + 2), 0)
+  : batches_(limited_batches(model))
+  , tethers_(model)
+  , nodes_(model.nodes())
+  , moved_at_(static_cast<size_t>(nodes_ / mark_size + 2), 0)
 {
   int first = 0;
   for (const SpringRun& run : runs_by_rows(batches_, model.rows))
@@ -173,6 +176,7 @@ void SpringTensions::go_on_from(const Shortening& before)
   reached_ = other->reached_;
   wanted_margin_ = other->wanted_margin_;
   margin_ = other->margin_;
+  tethers_.go_on_from(other->tethers_);
   auto next = other->runs_.begin();
   for (Run& run : runs_)
   {
@@ -202,6 +206,7 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
   max_strain_ = max_strain;
   ++now_;
   std::fill(moved_at_.begin(), moved_at_.end(), now_);
+  tethers_.prepare(inverse_masses);
   StrainLimit::Report report;
   report.moved = pull_as_before(w, columns);
   Lengths longest = find_taut(w, columns);
@@ -238,9 +243,14 @@ StrainLimit::Report SpringTensions::shorten(const Eigen::VectorXd& inverse_masse
   return report;
 }
 
+double SpringTensions::stretch_held() const
+{
+  return 1.0 + max_strain_ * (1.0 - margin_);
+}
+
 double SpringTensions::target_length(const Run& run) const
 {
-  return batches_[run.springs.batch].rest_length * (1.0 + max_strain_ * (1.0 - margin_));
+  return batches_[run.springs.batch].rest_length * stretch_held();
 }
 
 bool SpringTensions::pull_as_before(const double* inverse_masses, const Columns<double>& positions)
@@ -262,6 +272,7 @@ bool SpringTensions::pull_as_before(const double* inverse_masses, const Columns<
                           row_of(run.springs, inverse_masses, shifts), parabola);
       }
     }
+    tethers_.add_shifts(inverse_masses, positions, stretch_held(), shifts, parabola);
     add_masses(inverse_masses, shifts, nodes_, parabola);
     factor = parabola.best_factor(reached_ ? most_growth : most_growth_of_a_failure);
     for (size_t d = 0; d < 3; ++d)
@@ -287,7 +298,7 @@ bool SpringTensions::pull_as_before(const double* inverse_masses, const Columns<
       }
     }
   });
-  return factor > 0.0;
+  return tethers_.relax(inverse_masses, positions, stretch_held(), factor) || factor > 0.0;
 }
 
 SpringTensions::Lengths SpringTensions::find_taut(const double* inverse_masses, const Columns<double>& positions)
@@ -403,6 +414,7 @@ void SpringTensions::carry_on_all(const Columns<double>& positions)
 
 void SpringTensions::add_tensions_to(const Columns<double>& shifts) const
 {
+  tethers_.add_tensions_to(shifts);
   for (const Run& run : runs_)
   {
     const Columns<const double> tensions = tensions_.from(run.first);

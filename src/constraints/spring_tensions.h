@@ -9,6 +9,7 @@
 #include "dual_parabola.h"
 #include "momentum.h"
 #include "shortening.h"
+#include "spring_tethers.h"
 
 namespace cloth
 {
@@ -68,8 +69,11 @@ private:
     long found_slack = -1;  ///< when all of its springs were
   };
 
+  /// Of springs at the margin, in lengths at rest.
+  double stretch_held() const;
   double target_length(const Run& run) const;
-  /// Pulls with the tensions of the last step times the factor that is best for them. False: they are of no use.
+  /// Pulls with the tensions of the last step times the factor that is best for them, then gives tethers their tension.
+  /// False: neither did anything.
   bool pull_as_before(const double* inverse_masses, const Columns<double>& positions);
   Lengths find_taut(const double* inverse_masses, const Columns<double>& positions);
   void relax_taut(bool backwards, const double* inverse_masses, const Columns<double>& positions);
@@ -84,6 +88,7 @@ private:
 
   std::vector<SpringBatch> batches_;
   std::vector<Run> runs_;
+  SpringTethers tethers_;
   int nodes_;
   double max_strain_ = 0.0;  ///< of the step
   bool reached_ = true;
