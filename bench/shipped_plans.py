@@ -56,7 +56,7 @@ def check(scene):
     claimed = number_in(summary, "error")
     low, high = CLAIM_RANGE
     holds = low * true <= claimed <= high * true or max(true, claimed) <= number_in(summary, "tolerance")
-    numbers = (number_in(summary, "time_step"), claimed, true, parting, number_in(summary, "cost"), planning)
+    numbers = (float(words_in(summary, "time_step")[0]), claimed, true, parting, number_in(summary, "cost"), planning)
     cells = [scene.title, word_in(summary, "method")] + ["{:.2g}".format(number) for number in numbers]
     print("| " + " | ".join(cells + ["holds" if holds else "**fails**"]) + " |", flush=True)
     return holds
@@ -129,8 +129,12 @@ def number_in(summary, key):
 
 
 def word_in(summary, key):
-    """The last of that key: what is chosen stands at the end."""
-    return re.findall(r"^ *{}: (.+)$".format(key), summary, re.MULTILINE)[-1]
+    """What is chosen stands at the end."""
+    return words_in(summary, key)[-1]
+
+
+def words_in(summary, key):
+    return re.findall(r"^ *{}: (.+)$".format(key), summary, re.MULTILINE)
 
 
 def parse():

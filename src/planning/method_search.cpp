@@ -76,13 +76,21 @@ public:
     }
     if (reference.motion != nullptr && !errors_->has_reference())
     {
-      errors_->hold_against(reference);
+      hold_against(reference);
     }
     errors_->run_next();
     ++runs_;
     count_evaluations();
     look_for_steps();
     is_over_ = is_over_ || found_ || runs_ >= most_runs || errors_->finest_step() < Simulation::shortest_step;
+  }
+
+  void hold_against(const MethodErrors::Reference& reference) override
+  {
+    if (errors_)
+    {
+      errors_->hold_against(reference);
+    }
   }
 
   std::optional<Candidate> found() const override
@@ -254,6 +262,15 @@ public:
     }
     is_over_ = found_ || tried_.size() >= most_tolerances;
     tolerance_ *= 0.1;
+  }
+
+  void hold_against(const MethodErrors::Reference& reference) override
+  {
+    if (!tried_.empty())
+    {
+      error_ =
+          std::hypot(distance(searched_.trials.motion(stepping_of(tried_.back())), *reference.motion), reference.error);
+    }
   }
 
   std::optional<Candidate> found() const override

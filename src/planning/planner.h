@@ -15,7 +15,7 @@ namespace cloth
 struct TriedPart
 {
   std::string part;
-  double change;  ///< of the answer without it, m
+  double change;  ///< of the answer without it, m; at least, where that is more than the tolerance
 };
 
 /// A choice, and why.
