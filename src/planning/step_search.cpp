@@ -24,6 +24,8 @@ constexpr double most_seconds = 3.0;
 /// Once trials have taken so long, s, one more has to promise to save so many times what it takes.
 constexpr double quick_search = 0.5;
 constexpr double saving_of_late_trials = 4.0;
+/// And then what is found has to do.
+constexpr double long_search = 1.0;
 
 /// A reference errs by no more than this part of what may be erred by.
 constexpr double reference_share = 0.25;
@@ -37,6 +39,9 @@ constexpr double critical_share = 0.1;
 /// time is better where it errs by so many times less.
 constexpr double useless_share = 0.25;
 constexpr double worth_waiting_for = 10.0;
+
+/// How much longer than the sheet's cells may be which still fold as it does.
+constexpr double cells_that_fold = 2.0;
 
 std::string in_words(const Candidate& candidate)
 {
@@ -175,6 +180,10 @@ bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
     return true;
   }
   const double best = found_.front().cost;
+  if (searched_.trials.seconds() > long_search)
+  {
+    return false;
+  }
   const bool is_late = searched_.trials.seconds() + search.trial_cost() > quick_search;
   const double most_cost = expected_run * (best - search.least_cost()) / (is_late ? saving_of_late_trials : 1.0);
   return search.least_cost() < level * best && search.trial_cost() < most_cost;
@@ -192,9 +201,9 @@ void StepSearch::check_cheapest()
   std::stable_sort(found_.begin(), found_.end(), is_cheaper);
 }
 
-/// A sheet has more modes to be wrong about than the coarser one of the trials. What was exact enough is made so again
-/// by shorter steps.
-Candidate StepSearch::checked(Candidate candidate) const
+/// A sheet has more modes to be wrong about than the coarser one of the trials: by what factor, is taken from the check
+/// before where trials have taken long already. What was exact enough is made so again by shorter steps.
+Candidate StepSearch::checked(Candidate candidate)
 {
   candidate.is_checked = true;
   if (candidate.row->is_adaptive)
@@ -206,22 +215,36 @@ Candidate StepSearch::checked(Candidate candidate) const
   on_scene.time_step = candidate.time_step;
   on_trials.time_step = candidate.time_step * candidate.stretch;
   const bool was_exact_enough = candidate.error <= searched_.allowed;
-  Trials::Check check = searched_.trials.check_on_the_sheet(on_scene, on_trials, early_samples);
-  if (was_exact_enough && candidate.error * check.factor > critical_share * searched_.allowed)
+  const auto is_critical = [&](double factor) {
+    return was_exact_enough && candidate.error * factor > critical_share * searched_.allowed;
+  };
+  Trials::Check check{ factor_.value_or(1.0), 0.0 };
+  if (!factor_ || searched_.trials.seconds() < long_search)
   {
-    check = searched_.trials.check_on_the_sheet(on_scene, on_trials, Motion::samples);
+    check =
+        is_critical(1.0) ? Trials::Check() : searched_.trials.check_on_the_sheet(on_scene, on_trials, early_samples);
+    check =
+        is_critical(check.factor) ? searched_.trials.check_on_the_sheet(on_scene, on_trials, Motion::samples) : check;
+    factor_ = check.factor;
   }
-  const double gain = std::exp2(candidate.row->order);
+  const int order = order_of(candidate);
+  const double gain = std::exp2(order);
   candidate.error = std::max(candidate.error * check.factor, check.difference * gain / (gain - 1.0));
   if (was_exact_enough && candidate.error > searched_.allowed)
   {
-    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / candidate.row->order);
+    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / order);
     candidate.time_step *= shorter;
     candidate.stepping.time_step = candidate.time_step;
     candidate.cost /= shorter;
     candidate.error = searched_.allowed;
   }
   return candidate;
+}
+
+/// A strain limit acts after a step, whatever the method: errors fall as the steps do, at best.
+int StepSearch::order_of(const Candidate& candidate) const
+{
+  return searched_.scene.params.strain_limit.max_strain > 0.0 ? 1 : candidate.row->order;
 }
 
 void StepSearch::choose()
@@ -233,20 +256,46 @@ void StepSearch::choose()
     return;
   }
   dearer_ = is_found ? in_words(found_.front()) : "";
-  best_ = parts_from_itself() ? scout_->nearest(real_time_share) : std::nullopt;
+  best_ = parts_from_itself() ? parted(scout_->nearest(real_time_share)) : is_found ? lengthened() : std::nullopt;
   best_ = best_ ? best_ : nearest_in_real_time();
   if (best_ && !is_useless(*best_))
   {
     return;
   }
-  const std::optional<Candidate> slower = is_found          ? found_.front() :
-                                          scout_ != nullptr ? scout_->nearest(std::numeric_limits<double>::infinity()) :
-                                                              std::nullopt;
+  std::optional<Candidate> slower = is_found          ? found_.front() :
+                                    scout_ != nullptr ? scout_->nearest(std::numeric_limits<double>::infinity()) :
+                                                        std::nullopt;
+  slower = parts_from_itself() ? parted(slower) : slower;
   if (slower && (!best_ || worth_waiting_for * slower->error < best_->error))
   {
     in_real_time_ = best_ ? in_words(*best_) : "";
-    best_ = is_found || parts_from_itself() ? *slower : checked(*slower);
+    best_ = slower->is_checked ? *slower : checked(*slower);
   }
+}
+
+/// By how much a motion parts from itself half of its cells tell as well as all; fewer fold less.
+std::optional<Candidate> StepSearch::parted(std::optional<Candidate> candidate) const
+{
+  if (candidate)
+  {
+    candidate->error *= std::max(1.0, searched_.trials.coarseness() / cells_that_fold);
+    candidate->is_checked = true;
+  }
+  return candidate;
+}
+
+/// The cheapest that was found, as exact as real time allows. None: not even its longest steps are affordable.
+std::optional<Candidate> StepSearch::lengthened() const
+{
+  Candidate candidate = found_.front();
+  const double longer = candidate.cost / real_time_share;
+  candidate.time_step *= longer;
+  candidate.stepping.time_step = candidate.time_step;
+  candidate.cost /= longer;
+  candidate.error *= std::pow(longer, order_of(candidate));
+  const bool is_tried =
+      !candidate.row->is_adaptive && candidate.time_step <= candidate.on_trials.time_step / candidate.stretch;
+  return is_tried ? std::optional<Candidate>(candidate) : std::nullopt;
 }
 
 bool StepSearch::parts_from_itself() const
@@ -260,7 +309,7 @@ bool StepSearch::is_useless(const Candidate& candidate) const
   return reference.motion != nullptr && candidate.error > useless_share * searched_.trials.travel(*reference.motion);
 }
 
-std::optional<Candidate> StepSearch::nearest_in_real_time() const
+std::optional<Candidate> StepSearch::nearest_in_real_time()
 {
   approach_in_real_time();
   std::vector<Candidate> candidates;

@@ -38,10 +38,13 @@ private:
   MethodErrors::Reference reference_for(const MethodSearch& asking) const;
   bool is_cheapest_checked() const;
   void check_cheapest();
-  Candidate checked(Candidate candidate) const;
+  Candidate checked(Candidate candidate);
+  int order_of(const Candidate& candidate) const;
   void choose();
   bool parts_from_itself() const;
-  std::optional<Candidate> nearest_in_real_time() const;
+  std::optional<Candidate> parted(std::optional<Candidate> candidate) const;
+  std::optional<Candidate> lengthened() const;
+  std::optional<Candidate> nearest_in_real_time();
   void approach_in_real_time() const;
   bool is_useless(const Candidate& candidate) const;
 
@@ -49,6 +52,7 @@ private:
   std::vector<std::unique_ptr<MethodSearch>> searches_;
   MethodSearch* scout_ = nullptr;
   std::vector<Candidate> found_;  ///< the cheapest first
+  std::optional<double> factor_;  ///< by which steps err more on the sheet itself, as was checked last
   std::optional<Candidate> best_;
   std::string dearer_;        ///< in words what would be exact enough, and takes too long
   std::string in_real_time_;  ///< in words what comes nearest in real time, where that is of no use

@@ -32,6 +32,7 @@ constexpr double most_of_scout_by_tolerance = 50.0;
 constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_allowance = 30.0;
 constexpr double untried_allowance = 3.0;
+constexpr double most_seconds_on_the_sheet = 2.0;
 
 /// What passes of the strain limit that are too few for a step may leave of a strain, relative to the limit, whatever
 /// the scout's steps leave, and how many times what those leave, in which luck has a part.
@@ -188,7 +189,7 @@ double Trials::change_from(const Motion& whole, StartedScene scene, const std::v
 
 bool Trials::takes_too_long(const Stepping& stepping, double horizons) const
 {
-  return horizons * Motion::horizon / stepping.time_step * evaluation_ > most_seconds;
+  return horizons * Motion::horizon / stepping.time_step * evaluation_ > most_seconds_on_the_sheet;
 }
 
 const Motion& Trials::motion(const Stepping& stepping)
