@@ -199,8 +199,8 @@ private:
     const double cost = is_measured ? searched_.costs.of_a_step(searched_.scene, stepping_of(time_step)) / time_step :
                                       cost_of(time_step);
     const double of_trials = std::min(longest_on_trials_, as_limited ? longest_on_trials_ : time_step * stretch());
-    return { &row_,    stepping, time_step, errors_->error_of(time_step * stretch()), cost, stepping_of(of_trials),
-             stretch() };
+    return { &row_,     stepping, time_step, errors_->error_of(time_step * stretch()), cost, stepping_of(of_trials),
+             stretch(), time_step };
   }
 
   const MethodRow& row_;
@@ -314,7 +314,7 @@ private:
     const auto steps = static_cast<double>(std::max<std::uint64_t>(1, counters_of_last().steps));
     const double mean_step = Motion::horizon / (shrinkage_ * steps);
     const Stepping stepping = stepping_of(tried_.back());
-    return { &row_, stepping, mean_step, error_, cost_of_last(), stepping, 1.0 };
+    return { &row_, stepping, mean_step, error_, cost_of_last(), stepping, 1.0, mean_step };
   }
 
   const MethodRow& row_;

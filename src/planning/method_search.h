@@ -25,6 +25,7 @@ struct Candidate
   double cost;              ///< s of work for a simulated second
   Stepping on_trials;       ///< the same on the coarser grid, with steps as long as that allows
   double stretch;           ///< how much longer a step there does the same
+  double longest;           ///< time_step as it was found, s: a check may shorten it
   bool is_checked = false;  ///< on the sheet itself
 };
 

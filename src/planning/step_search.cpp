@@ -24,8 +24,8 @@ constexpr double most_seconds = 3.0;
 /// Once trials have taken so long, s, one more has to promise to save so many times what it takes.
 constexpr double quick_search = 0.5;
 constexpr double saving_of_late_trials = 4.0;
-/// And then what is found has to do.
 constexpr double long_search = 1.0;
+constexpr double saving_of_last_trials = 8.0;
 
 /// A reference errs by no more than this part of what may be erred by.
 constexpr double reference_share = 0.25;
@@ -180,12 +180,11 @@ bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
     return true;
   }
   const double best = found_.front().cost;
-  if (searched_.trials.seconds() > long_search)
-  {
-    return false;
-  }
-  const bool is_late = searched_.trials.seconds() + search.trial_cost() > quick_search;
-  const double most_cost = expected_run * (best - search.least_cost()) / (is_late ? saving_of_late_trials : 1.0);
+  const double seconds = searched_.trials.seconds() + search.trial_cost();
+  const double times = seconds < quick_search ? 1.0 :
+                       seconds < long_search  ? saving_of_late_trials :
+                                                saving_of_last_trials;
+  const double most_cost = expected_run * (best - search.least_cost()) / times;
   return search.least_cost() < level * best && search.trial_cost() < most_cost;
 }
 
@@ -293,8 +292,7 @@ std::optional<Candidate> StepSearch::lengthened() const
   candidate.stepping.time_step = candidate.time_step;
   candidate.cost /= longer;
   candidate.error *= std::pow(longer, order_of(candidate));
-  const bool is_tried =
-      !candidate.row->is_adaptive && candidate.time_step <= candidate.on_trials.time_step / candidate.stretch;
+  const bool is_tried = !candidate.row->is_adaptive && candidate.time_step <= candidate.longest;
   return is_tried ? std::optional<Candidate>(candidate) : std::nullopt;
 }
 
