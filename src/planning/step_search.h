@@ -10,8 +10,9 @@
 namespace cloth
 {
 
-/// Finds the cheapest method and steps that err by `allowed` (m) at most, or what comes nearest to that in real time.
-/// Trials that may lead to the cheapest come first, so that finding out costs a part of what it leads to.
+/// Finds the cheapest method and steps that err by `allowed` (m) at most, or what comes nearest to that in real time,
+/// or in its own time where what real time allows is of no use. Trials that may lead to the cheapest come first, so
+/// that finding out costs a part of what it leads to.
 class StepSearch
 {
 public:
