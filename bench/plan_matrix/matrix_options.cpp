@@ -67,7 +67,7 @@ three tolerances, and holds the plans against what was found. It runs on one cor
 
   --out DIR        where everything goes; plan_matrix. What is there already is not done again
   --scenes N       how many; 60
-  --seed S         which; 1
+  --seed S         which are held out; 2
   --most-nodes N   a side of a sheet, from 8; 96
   --half HALF      development (even numbers), held_out (odd ones), both
   --only WORK      search: no plans; plans: those of scenes that have been searched
@@ -101,7 +101,7 @@ MatrixOptions parse_matrix_options(int argc, char** argv)
         options.settings.scenes = whole_number("--scenes", optarg, 1, 1000);
         break;
       case 's':
-        options.settings.seed = whole_number<std::uint64_t>("--seed", optarg, 0, 1000000000);
+        options.settings.held_out_seed = whole_number<std::uint64_t>("--seed", optarg, 0, 1000000000);
         break;
       case 'm':
         options.settings.most_per_side = whole_number("--most-nodes", optarg, 8, 256);

@@ -115,9 +115,10 @@ void SceneSearch::run()
 
 void SceneSearch::run(int number)
 {
+  const std::uint64_t seed = half_ == Half::held_out ? settings_.held_out_seed : settings_.development_seed;
   for (int attempt = 0; attempt < settings_.most_attempts; ++attempt)
   {
-    const DrawnRow row = draw({ settings_.seed, number, attempt, settings_.most_per_side });
+    const DrawnRow row = draw({ seed, number, attempt, settings_.most_per_side });
     const std::string name = name_of(row.number);
     draws_.push_back(row);
     write_table();

@@ -17,7 +17,8 @@ namespace cloth
 /// Which scenes there are, and how much is done about them.
 struct MatrixSettings
 {
-  std::uint64_t seed = 1;
+  std::uint64_t development_seed = 1;
+  std::uint64_t held_out_seed = 2;  ///< another one where the half has been looked at
   int scenes = 60;
   int most_per_side = 96;        ///< nodes
   double horizon = 1.0;          ///< s

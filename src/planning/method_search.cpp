@@ -76,13 +76,21 @@ public:
     }
     if (reference.motion != nullptr && !errors_->has_reference())
     {
-      errors_->hold_against(reference);
+      hold_against(reference);
     }
     errors_->run_next();
     ++runs_;
     count_evaluations();
     look_for_steps();
     is_over_ = is_over_ || found_ || runs_ >= most_runs || errors_->finest_step() < Simulation::shortest_step;
+  }
+
+  void hold_against(const MethodErrors::Reference& reference) override
+  {
+    if (errors_)
+    {
+      errors_->hold_against(reference);
+    }
   }
 
   std::optional<Candidate> found() const override
@@ -191,8 +199,8 @@ private:
     const double cost = is_measured ? searched_.costs.of_a_step(searched_.scene, stepping_of(time_step)) / time_step :
                                       cost_of(time_step);
     const double of_trials = std::min(longest_on_trials_, as_limited ? longest_on_trials_ : time_step * stretch());
-    return { &row_,    stepping, time_step, errors_->error_of(time_step * stretch()), cost, stepping_of(of_trials),
-             stretch() };
+    return { &row_,     stepping, time_step, errors_->error_of(time_step * stretch()), cost, stepping_of(of_trials),
+             stretch(), time_step };
   }
 
   const MethodRow& row_;
@@ -256,6 +264,15 @@ public:
     tolerance_ *= 0.1;
   }
 
+  void hold_against(const MethodErrors::Reference& reference) override
+  {
+    if (!tried_.empty())
+    {
+      error_ =
+          std::hypot(distance(searched_.trials.motion(stepping_of(tried_.back())), *reference.motion), reference.error);
+    }
+  }
+
   std::optional<Candidate> found() const override
   {
     return found_;
@@ -297,7 +314,7 @@ private:
     const auto steps = static_cast<double>(std::max<std::uint64_t>(1, counters_of_last().steps));
     const double mean_step = Motion::horizon / (shrinkage_ * steps);
     const Stepping stepping = stepping_of(tried_.back());
-    return { &row_, stepping, mean_step, error_, cost_of_last(), stepping, 1.0 };
+    return { &row_, stepping, mean_step, error_, cost_of_last(), stepping, 1.0, mean_step };
   }
 
   const MethodRow& row_;

@@ -19,12 +19,14 @@ constexpr double level_errors = 1.25;
 struct Candidate
 {
   const MethodRow* row;
-  Stepping stepping;   ///< of the scene itself; time_step 0: as stability allows
-  double time_step;    ///< s; of a method that chooses its steps, their mean
-  double error;        ///< estimated, m
-  double cost;         ///< s of work for a simulated second
-  Stepping on_trials;  ///< the same on the coarser grid, with steps as long as that allows
-  double stretch;      ///< how much longer a step there does the same
+  Stepping stepping;        ///< of the scene itself; time_step 0: as stability allows
+  double time_step;         ///< s; of a method that chooses its steps, their mean
+  double error;             ///< estimated, m
+  double cost;              ///< s of work for a simulated second
+  Stepping on_trials;       ///< the same on the coarser grid, with steps as long as that allows
+  double stretch;           ///< how much longer a step there does the same
+  double longest;           ///< time_step as it was found, s: a check may shorten it
+  bool is_checked = false;  ///< on the sheet itself
 };
 
 /// What all searches of a scene share.
@@ -57,6 +59,9 @@ public:
 
   /// Held against a reference where there is a motion.
   virtual void try_next(const MethodErrors::Reference& reference) = 0;
+
+  /// From now on errors are distances from the reference.
+  virtual void hold_against(const MethodErrors::Reference& reference) = 0;
 
   /// The cheapest steps that are exact enough.
   virtual std::optional<Candidate> found() const = 0;

@@ -15,6 +15,22 @@ namespace
 /// Of conjugate gradients, on small sheets.
 constexpr double evaluations_of_an_iteration = 5.0;
 
+int common_samples(const Motion& one, const Motion& other)
+{
+  return static_cast<int>(std::min(one.positions.size(), other.positions.size()));
+}
+
+/// Of the distances at each sample, m2.
+double sum_of_squares(const Motion& one, const Motion& other, int samples)
+{
+  double sum = 0.0;
+  for (int s = 0; s < samples; ++s)
+  {
+    sum += (one.positions[s] - other.positions[s]).squaredNorm() / static_cast<double>(one.positions[s].rows());
+  }
+  return sum;
+}
+
 }  // namespace
 
 Simulation simulation_of(const StartedScene& scene, const Stepping& stepping)
@@ -35,7 +51,8 @@ double evaluations_in(const Simulation::Counters& counters)
          evaluations_of_an_iteration * static_cast<double>(counters.linear_iterations);
 }
 
-Motion motion_of(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples)
+Motion motion_of(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples,
+                 const std::function<bool(const Motion&)>& is_enough)
 {
   Simulation simulation = simulation_of(scene, stepping);
   const double begin = simulation.state().time;
@@ -53,6 +70,10 @@ Motion motion_of(const StartedScene& scene, const Stepping& stepping, double mos
     {
       motion.excess = std::max(motion.excess, max_strain(simulation.model(), motion.positions.back()) / held - 1.0);
     }
+    if (is_enough && is_enough(motion))
+    {
+      break;
+    }
   }
   motion.counters = simulation.counters();
   return motion;
@@ -60,16 +81,13 @@ Motion motion_of(const StartedScene& scene, const Stepping& stepping, double mos
 
 double distance(const Motion& one, const Motion& other, int samples)
 {
-  if (static_cast<int>(std::min(one.positions.size(), other.positions.size())) < samples)
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-  double sum = 0.0;
-  for (int s = 0; s < samples; ++s)
-  {
-    sum += (one.positions[s] - other.positions[s]).squaredNorm() / static_cast<double>(one.positions[s].rows());
-  }
-  return std::sqrt(sum / samples);
+  return common_samples(one, other) < samples ? std::numeric_limits<double>::infinity() :
+                                                std::sqrt(sum_of_squares(one, other, samples) / samples);
+}
+
+double least_distance(const Motion& one, const Motion& other)
+{
+  return std::sqrt(sum_of_squares(one, other, common_samples(one, other)) / Motion::samples);
 }
 
 }  // namespace cloth

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,15 @@ Simulation simulation_of(const StartedScene& scene, const Stepping& stepping);
 /// What steps took, in evaluations of the forces.
 double evaluations_in(const Simulation::Counters& counters);
 
-/// The motion up to the sample `samples`; cut off where it diverges or has taken more than `most_evaluations`.
+/// The motion up to the sample `samples`; cut off where it diverges, has taken more than `most_evaluations`, or a
+/// sample makes it enough.
 Motion motion_of(const StartedScene& scene, const Stepping& stepping, double most_evaluations,
-                 int samples = Motion::samples);
+                 int samples = Motion::samples, const std::function<bool(const Motion&)>& is_enough = {});
 
 /// Root mean square over all nodes and the first so many samples, m; infinite where one of the two has fewer.
 double distance(const Motion& one, const Motion& other, int samples = Motion::samples);
+
+/// Below that over the whole horizon, m: of as many samples as both have.
+double least_distance(const Motion& one, const Motion& other);
 
 }  // namespace cloth

@@ -30,10 +30,12 @@ LeftOut parts_to_leave_out(Trials& trials, const Candidate& best, double allowed
 {
   Stepping on_scene = best.stepping;
   on_scene.time_step = best.row->is_adaptive ? on_scene.time_step : best.time_step;
+  const double enough = trials.scene().params.solver.tolerance;
   const auto change_without = [&](const std::vector<std::string>& parts) {
-    const double change = trials.change_without(parts, best.on_trials);
+    const double change = trials.change_without(parts, best.on_trials, enough);
     const bool lets_short_waves_grow = std::find(parts.begin(), parts.end(), internal_damping) != parts.end();
-    return change < allowed && lets_short_waves_grow ? trials.change_on_the_sheet(parts, on_scene, change) : change;
+    return change < allowed && lets_short_waves_grow ? trials.change_on_the_sheet(parts, on_scene, change, enough) :
+                                                       change;
   };
   for (const ModelPart& part : optional_parts())
   {

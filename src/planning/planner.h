@@ -15,7 +15,7 @@ namespace cloth
 struct TriedPart
 {
   std::string part;
-  double change;  ///< of the answer without it, m
+  double change;  ///< of the answer without it, m; at least, where that is more than the tolerance
 };
 
 /// A choice, and why.
@@ -28,8 +28,8 @@ struct Planned
 
 /// The cheapest model, method and step whose error over `Motion::horizon` is estimated to be below half of
 /// solver.tolerance, from trial runs on a coarser grid. Parts are tried only where scene.plan is auto. Without a step
-/// that meets the tolerance, what comes nearest to it, and all parts. Throws SceneError where the scene cannot be
-/// stepped.
+/// that meets the tolerance in real time, what comes nearest to it then (slower, where that is of no use), and all
+/// parts. Throws SceneError where the scene cannot be stepped.
 Planned plan_by_trial(const StartedScene& scene, StepCosts& costs);
 
 }  // namespace cloth

@@ -14,13 +14,18 @@ namespace
 /// A dearer method is not worth a change.
 constexpr double level = 0.9;
 /// The part of real time that steps may take: a node makes and publishes messages besides.
-constexpr double real_time_share = 0.5;
+constexpr double real_time_share = 0.75;
 /// A trial is made where it may save more than it takes in a run so long, s.
 constexpr double expected_run = 10.0;
 /// What trials may take while nothing is found, in parts of such a run by the scout, or at what real time allows.
 constexpr double most_trials = 0.2;
 /// And then by the scout alone, s.
 constexpr double most_seconds = 3.0;
+/// Once trials have taken so long, s, one more has to promise to save so many times what it takes.
+constexpr double quick_search = 0.5;
+constexpr double saving_of_late_trials = 4.0;
+constexpr double long_search = 1.0;
+constexpr double saving_of_last_trials = 8.0;
 
 /// A reference errs by no more than this part of what may be erred by.
 constexpr double reference_share = 0.25;
@@ -29,6 +34,14 @@ constexpr double reference_share = 0.25;
 /// this part of what they may be.
 constexpr int early_samples = 2;
 constexpr double critical_share = 0.1;
+
+/// A motion that errs by more than this part of how far the nodes move is of no use, and one that is slower than real
+/// time is better where it errs by so many times less.
+constexpr double useless_share = 0.25;
+constexpr double worth_waiting_for = 10.0;
+
+/// How much longer than the sheet's cells may be which still fold as it does.
+constexpr double cells_that_fold = 2.0;
 
 std::string in_words(const Candidate& candidate)
 {
@@ -70,6 +83,17 @@ StepSearch::StepSearch(const StartedScene& scene, Trials& trials, double allowed
 
 void StepSearch::run()
 {
+  find_more();
+  while (!is_cheapest_checked())
+  {
+    check_cheapest();
+    find_more();
+  }
+  choose();
+}
+
+void StepSearch::find_more()
+{
   while (MethodSearch* const search = next_search())
   {
     search->try_next(search == scout_ ? MethodErrors::Reference{} : reference_for(*search));
@@ -79,7 +103,6 @@ void StepSearch::run()
       std::stable_sort(found_.begin(), found_.end(), is_cheaper);
     }
   }
-  choose();
 }
 
 /// None: nothing more can come of any, or what may come is not worth the trials.
@@ -124,7 +147,7 @@ MethodSearch* StepSearch::most_promising() const
   return is_near_the_scout && is_worth_a_trial(*scout_) ? scout_ : best;
 }
 
-MethodErrors::Reference StepSearch::reference_for(const MethodSearch& asking) const
+MethodErrors::Reference StepSearch::most_exact_but(const MethodSearch& asking) const
 {
   MethodErrors::Reference best;
   for (const std::unique_ptr<MethodSearch>& search : searches_)
@@ -135,6 +158,12 @@ MethodErrors::Reference StepSearch::reference_for(const MethodSearch& asking) co
       best = reference.error < best.error ? reference : best;
     }
   }
+  return best;
+}
+
+MethodErrors::Reference StepSearch::reference_for(const MethodSearch& asking) const
+{
+  const MethodErrors::Reference best = most_exact_but(asking);
   return best.error < reference_share * searched_.allowed ? best : MethodErrors::Reference{};
 }
 
@@ -151,40 +180,136 @@ bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
     return true;
   }
   const double best = found_.front().cost;
-  return search.least_cost() < level * best && (best - search.least_cost()) * expected_run > search.trial_cost();
+  const double seconds = searched_.trials.seconds() + search.trial_cost();
+  const double times = seconds < quick_search ? 1.0 :
+                       seconds < long_search  ? saving_of_late_trials :
+                                                saving_of_last_trials;
+  const double most_cost = expected_run * (best - search.least_cost()) / times;
+  return search.least_cost() < level * best && search.trial_cost() < most_cost;
+}
+
+bool StepSearch::is_cheapest_checked() const
+{
+  return found_.empty() || found_.front().is_checked;
+}
+
+/// What is the cheapest may be another then, or one that is worth a trial only now.
+void StepSearch::check_cheapest()
+{
+  found_.front() = checked(found_.front());
+  std::stable_sort(found_.begin(), found_.end(), is_cheaper);
+}
+
+/// A sheet has more modes to be wrong about than the coarser one of the trials: by what factor, is taken from the check
+/// before where trials have taken long already. What was exact enough is made so again by shorter steps.
+Candidate StepSearch::checked(Candidate candidate)
+{
+  candidate.is_checked = true;
+  if (candidate.row->is_adaptive)
+  {
+    return candidate;
+  }
+  Stepping on_scene = candidate.stepping;
+  Stepping on_trials = candidate.stepping;
+  on_scene.time_step = candidate.time_step;
+  on_trials.time_step = candidate.time_step * candidate.stretch;
+  const bool was_exact_enough = candidate.error <= searched_.allowed;
+  const auto is_critical = [&](double factor) {
+    return was_exact_enough && candidate.error * factor > critical_share * searched_.allowed;
+  };
+  Trials::Check check{ factor_.value_or(1.0), 0.0 };
+  if (!factor_ || searched_.trials.seconds() < long_search)
+  {
+    check =
+        is_critical(1.0) ? Trials::Check() : searched_.trials.check_on_the_sheet(on_scene, on_trials, early_samples);
+    check =
+        is_critical(check.factor) ? searched_.trials.check_on_the_sheet(on_scene, on_trials, Motion::samples) : check;
+    factor_ = check.factor;
+  }
+  const int order = order_of(candidate);
+  const double gain = std::exp2(order);
+  candidate.error = std::max(candidate.error * check.factor, check.difference * gain / (gain - 1.0));
+  if (was_exact_enough && candidate.error > searched_.allowed)
+  {
+    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / order);
+    candidate.time_step *= shorter;
+    candidate.stepping.time_step = candidate.time_step;
+    candidate.cost /= shorter;
+    candidate.error = searched_.allowed;
+  }
+  return candidate;
+}
+
+/// A strain limit acts after a step, whatever the method: errors fall as the steps do, at best.
+int StepSearch::order_of(const Candidate& candidate) const
+{
+  return searched_.scene.params.strain_limit.max_strain > 0.0 ? 1 : candidate.row->order;
 }
 
 void StepSearch::choose()
 {
   const bool is_found = !found_.empty();
-  const bool is_affordable = is_found && found_.front().cost <= real_time_share;
-  dearer_ = is_found && !is_affordable ? in_words(found_.front()) : "";
-  if (is_affordable)
+  if (is_found && found_.front().cost <= real_time_share)
   {
     best_ = found_.front();
+    return;
   }
-  else if (scout_ != nullptr && scout_->is_at_its_floor())
+  dearer_ = is_found ? in_words(found_.front()) : "";
+  best_ = parts_from_itself() ? parted(scout_->nearest(real_time_share)) : is_found ? lengthened() : std::nullopt;
+  best_ = best_ ? best_ : nearest_in_real_time();
+  if (best_ && !is_useless(*best_))
   {
-    best_ = scout_->nearest(real_time_share);
+    return;
   }
-  if (!best_)
+  std::optional<Candidate> slower = is_found          ? found_.front() :
+                                    scout_ != nullptr ? scout_->nearest(std::numeric_limits<double>::infinity()) :
+                                                        std::nullopt;
+  slower = parts_from_itself() ? parted(slower) : slower;
+  if (slower && (!best_ || worth_waiting_for * slower->error < best_->error))
   {
-    best_ = nearest_in_real_time();
-  }
-  if (!best_)
-  {
-    best_ = is_found          ? std::optional<Candidate>(found_.front()) :
-            scout_ != nullptr ? scout_->nearest(std::numeric_limits<double>::infinity()) :
-                                std::nullopt;
-  }
-  if (best_ && !best_->row->is_adaptive)
-  {
-    allow_for_the_grid();
+    in_real_time_ = best_ ? in_words(*best_) : "";
+    best_ = slower->is_checked ? *slower : checked(*slower);
   }
 }
 
-std::optional<Candidate> StepSearch::nearest_in_real_time() const
+/// By how much a motion parts from itself half of its cells tell as well as all; fewer fold less.
+std::optional<Candidate> StepSearch::parted(std::optional<Candidate> candidate) const
 {
+  if (candidate)
+  {
+    candidate->error *= std::max(1.0, searched_.trials.coarseness() / cells_that_fold);
+    candidate->is_checked = true;
+  }
+  return candidate;
+}
+
+/// The cheapest that was found, as exact as real time allows. None: not even its longest steps are affordable.
+std::optional<Candidate> StepSearch::lengthened() const
+{
+  Candidate candidate = found_.front();
+  const double longer = candidate.cost / real_time_share;
+  candidate.time_step *= longer;
+  candidate.stepping.time_step = candidate.time_step;
+  candidate.cost /= longer;
+  candidate.error *= std::pow(longer, order_of(candidate));
+  const bool is_tried = !candidate.row->is_adaptive && candidate.time_step <= candidate.longest;
+  return is_tried ? std::optional<Candidate>(candidate) : std::nullopt;
+}
+
+bool StepSearch::parts_from_itself() const
+{
+  return scout_ != nullptr && scout_->is_at_its_floor();
+}
+
+bool StepSearch::is_useless(const Candidate& candidate) const
+{
+  const MethodErrors::Reference reference = scout_ != nullptr ? scout_->reference() : MethodErrors::Reference{};
+  return reference.motion != nullptr && candidate.error > useless_share * searched_.trials.travel(*reference.motion);
+}
+
+std::optional<Candidate> StepSearch::nearest_in_real_time()
+{
+  approach_in_real_time();
   std::vector<Candidate> candidates;
   for (const std::unique_ptr<MethodSearch>& search : searches_)
   {
@@ -202,73 +327,43 @@ std::optional<Candidate> StepSearch::nearest_in_real_time() const
   const auto nearest = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
     return candidate.error <= level_errors * least;
   });
-  return nearest == candidates.end() ? std::nullopt : std::optional<Candidate>(*nearest);
+  return nearest == candidates.end() ? std::nullopt : std::optional<Candidate>(checked(*nearest));
 }
 
-/// A sheet has more modes to be wrong about than the coarser one of the trials. What is the cheapest may be another
-/// then.
-void StepSearch::allow_for_the_grid()
+/// Long steps may all err alike, and differ little from each other: against the most exact motion that is known,
+/// however far it parts from itself, they do. Steps that are affordable are tried down to the shortest.
+void StepSearch::approach_in_real_time() const
 {
-  Stepping on_scene = best_->stepping;
-  Stepping on_trials = best_->stepping;
-  on_scene.time_step = best_->time_step;
-  on_trials.time_step = best_->time_step * best_->stretch;
-  const bool was_found = best_->error <= searched_.allowed;
-  double factor = searched_.trials.grid_allowance(on_scene, on_trials, early_samples);
-  if (was_found && best_->error * factor > critical_share * searched_.allowed)
+  for (const std::unique_ptr<MethodSearch>& search : searches_)
   {
-    factor = searched_.trials.grid_allowance(on_scene, on_trials, Motion::samples);
+    const MethodErrors::Reference reference = most_exact_but(*search);
+    if (search.get() == scout_ || reference.motion == nullptr)
+    {
+      continue;
+    }
+    search->hold_against(reference);
+    while (!search->is_over() && search->next_cost() <= real_time_share &&
+           searched_.trials.seconds() + search->trial_cost() < most_seconds)
+    {
+      search->try_next(reference);
+    }
   }
-  best_ = allowing_for(*best_, factor);
-  for (const Candidate& candidate : found_)
-  {
-    const Candidate other = allowing_for(candidate, factor);
-    best_ = was_found && is_cheaper(other, *best_) ? other : best_;
-  }
-  if (was_found && best_->cost > real_time_share && best_->stepping.time_step > 0.0)
-  {
-    dearer_ = in_words(*best_);
-    const double longer = std::min(best_->cost / real_time_share, on_scene.time_step / best_->time_step);
-    best_->time_step *= longer;
-    best_->stepping.time_step = best_->time_step;
-    best_->cost /= longer;
-    best_->error *= std::pow(longer, best_->row->order);
-  }
-}
-
-/// What was exact enough is made so again by shorter steps.
-Candidate StepSearch::allowing_for(Candidate candidate, double factor) const
-{
-  if (candidate.row->is_adaptive)
-  {
-    return candidate;
-  }
-  const bool was_exact_enough = candidate.error <= searched_.allowed;
-  candidate.error *= factor;
-  if (was_exact_enough && candidate.error > searched_.allowed)
-  {
-    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / candidate.row->order);
-    candidate.time_step *= shorter;
-    candidate.stepping.time_step = candidate.time_step;
-    candidate.cost /= shorter;
-    candidate.error = searched_.allowed;
-  }
-  return candidate;
 }
 
 std::string StepSearch::reason(double tolerance) const
 {
   std::string words = in_words(*best_);
+  words += best_->cost > 1.0 ? ", slower than real time" : "";
+  words += in_real_time_.empty() ? "" : "; in real time there is nothing of use: " + in_real_time_;
   if (best_->error > tolerance)
   {
     words += "; the tolerance of " + format_number(tolerance) + " m cannot be had";
-    if (scout_ != nullptr && scout_->is_at_its_floor())
+    if (parts_from_itself())
     {
       return words + ", since the motion parts from itself: shorter steps bring it nearer to nothing";
     }
     return words + (dearer_.empty() ? "" : " in real time: " + dearer_);
   }
-  words += best_->cost > 1.0 ? ", slower than real time" : "";
   const bool is_next = found_.size() > 1 && found_.front().row == best_->row;
   return words + (is_next ? "; next: " + in_words(found_[1]) : "");
 }

@@ -10,8 +10,9 @@
 namespace cloth
 {
 
-/// Finds the cheapest method and steps that err by `allowed` (m) at most, or what comes nearest to that in real time.
-/// Trials that may lead to the cheapest come first, so that finding out costs a part of what it leads to.
+/// Finds the cheapest method and steps that err by `allowed` (m) at most, or what comes nearest to that in real time,
+/// or in its own time where what real time allows is of no use. Trials that may lead to the cheapest come first, so
+/// that finding out costs a part of what it leads to.
 class StepSearch
 {
 public:
@@ -28,23 +29,34 @@ public:
   std::string reason(double tolerance) const;
 
 private:
+  void find_more();
   MethodSearch* next_search() const;
   MethodSearch* most_promising() const;
   bool is_worth_a_trial(const MethodSearch& search) const;
-  /// The most exact run of the scout and the methods that were found to be exact enough, where it is so exact that
-  /// others can be held against it.
+  /// The most exact run of the scout and the methods that were found to be exact enough.
+  MethodErrors::Reference most_exact_but(const MethodSearch& asking) const;
+  /// The same where it is so exact that others can be held against it while they may be exact enough.
   MethodErrors::Reference reference_for(const MethodSearch& asking) const;
+  bool is_cheapest_checked() const;
+  void check_cheapest();
+  Candidate checked(Candidate candidate);
+  int order_of(const Candidate& candidate) const;
   void choose();
-  void allow_for_the_grid();
-  Candidate allowing_for(Candidate candidate, double factor) const;
-  std::optional<Candidate> nearest_in_real_time() const;
+  bool parts_from_itself() const;
+  std::optional<Candidate> parted(std::optional<Candidate> candidate) const;
+  std::optional<Candidate> lengthened() const;
+  std::optional<Candidate> nearest_in_real_time();
+  void approach_in_real_time() const;
+  bool is_useless(const Candidate& candidate) const;
 
   SearchedScene searched_;
   std::vector<std::unique_ptr<MethodSearch>> searches_;
   MethodSearch* scout_ = nullptr;
   std::vector<Candidate> found_;  ///< the cheapest first
+  std::optional<double> factor_;  ///< by which steps err more on the sheet itself, as was checked last
   std::optional<Candidate> best_;
-  std::string dearer_;  ///< in words what would be exact enough, and takes too long
+  std::string dearer_;        ///< in words what would be exact enough, and takes too long
+  std::string in_real_time_;  ///< in words what comes nearest in real time, where that is of no use
 };
 
 /// As many digits as an estimate is good for.

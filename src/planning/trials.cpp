@@ -32,6 +32,7 @@ constexpr double most_of_scout_by_tolerance = 50.0;
 constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_allowance = 30.0;
 constexpr double untried_allowance = 3.0;
+constexpr double most_seconds_on_the_sheet = 2.0;
 
 /// What passes of the strain limit that are too few for a step may leave of a strain, relative to the limit, whatever
 /// the scout's steps leave, and how many times what those leave, in which luck has a part.
@@ -41,6 +42,12 @@ constexpr double excess_of_luck = 1.5;
 double nodes_of(const StartedScene& scene)
 {
   return static_cast<double>(scene.start.state.positions.rows());
+}
+
+std::string key_of(const Stepping& stepping)
+{
+  return stepping.method + " " + format_number(stepping.time_step) + " " + format_number(stepping.tolerance) + " " +
+         std::to_string(stepping.iterations);
 }
 
 int coarsening_of(const StartedScene& scene, double seconds_a_run)
@@ -120,36 +127,45 @@ double Trials::coarseness() const
   return std::max(ratio(fine.rows - 1, coarse.rows - 1), ratio(fine.cols - 1, coarse.cols - 1));
 }
 
-double Trials::grid_allowance(const Stepping& stepping, const Stepping& on_trial, int samples)
+Trials::Check Trials::check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples)
 {
   if (!is_coarser())
   {
-    return 1.0;
+    return {};
   }
   if (takes_too_long(stepping, 3.0 * samples / Motion::samples))
   {
-    return untried_allowance;
+    return { untried_allowance, 0.0 };
   }
-  const auto error_on = [&](const StartedScene& scene, Stepping steps) {
-    const Motion at_given = run(scene, steps, samples);
+  const auto halved = [](Stepping steps) {
     steps.time_step *= 0.5;
-    return distance(at_given, run(scene, steps, samples), samples);
+    return steps;
   };
-  const double ratio = error_on(scene_, stepping) / error_on(pilot_, on_trial);
+  const double difference =
+      distance(motion_of_the_sheet(stepping, samples), motion_of_the_sheet(halved(stepping), samples), samples);
+  const double ratio =
+      difference / distance(run(pilot_, on_trial, samples), run(pilot_, halved(on_trial), samples), samples);
   const bool is_early = samples < Motion::samples;
   const double least =
       is_early && find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
-  return std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance;
+  return { std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance,
+           !is_early && std::isfinite(difference) ? difference : 0.0 };
 }
 
-double Trials::change_without(const std::vector<std::string>& parts, const Stepping& stepping)
+double Trials::travel(const Motion& motion) const
 {
-  StartedScene lesser = pilot_;
-  lesser.params = without(lesser.params, parts);
-  return distance(motion(stepping), run(lesser, stepping));
+  Motion at_rest = motion;
+  std::fill(at_rest.positions.begin(), at_rest.positions.end(), pilot_.start.state.positions);
+  return distance(motion, at_rest, static_cast<int>(motion.positions.size()));
 }
 
-double Trials::change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change)
+double Trials::change_without(const std::vector<std::string>& parts, const Stepping& stepping, double enough)
+{
+  return change_from(motion(stepping), pilot_, parts, stepping, enough);
+}
+
+double Trials::change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change,
+                                   double enough)
 {
   if (!is_coarser())
   {
@@ -159,25 +175,41 @@ double Trials::change_on_the_sheet(const std::vector<std::string>& parts, const 
   {
     return untried_allowance * change;
   }
-  StartedScene lesser = scene_;
-  lesser.params = without(lesser.params, parts);
-  return std::max(change, distance(run(scene_, stepping), run(lesser, stepping)));
+  return std::max(change, change_from(motion_of_the_sheet(stepping, Motion::samples), scene_, parts, stepping, enough));
+}
+
+double Trials::change_from(const Motion& whole, StartedScene scene, const std::vector<std::string>& parts,
+                           const Stepping& stepping, double enough)
+{
+  scene.params = without(scene.params, parts);
+  const auto is_enough = [&](const Motion& so_far) { return least_distance(whole, so_far) > enough; };
+  const Motion lesser = run(scene, stepping, Motion::samples, is_enough);
+  return is_enough(lesser) ? least_distance(whole, lesser) : distance(whole, lesser);
 }
 
 bool Trials::takes_too_long(const Stepping& stepping, double horizons) const
 {
-  return horizons * Motion::horizon / stepping.time_step * evaluation_ > most_seconds;
+  return horizons * Motion::horizon / stepping.time_step * evaluation_ > most_seconds_on_the_sheet;
 }
 
 const Motion& Trials::motion(const Stepping& stepping)
 {
-  const std::string key = stepping.method + " " + format_number(stepping.time_step) + " " +
-                          format_number(stepping.tolerance) + " " + std::to_string(stepping.iterations);
+  const std::string key = key_of(stepping);
   const auto known = motions_.find(key);
   return known != motions_.end() ? known->second : motions_.emplace(key, run(pilot_, stepping)).first->second;
 }
 
-Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samples)
+const Motion& Trials::motion_of_the_sheet(const Stepping& stepping, int samples)
+{
+  Motion& motion = motions_of_the_sheet_[key_of(stepping)];
+  if (static_cast<int>(motion.positions.size()) < samples)
+  {
+    motion = run(scene_, stepping, samples);
+  }
+  return motion;
+}
+
+Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samples, const IsEnough& is_enough)
 {
   const MethodRow& row = *find_method(stepping.method);
   const double of_scout = Motion::horizon / scout_step_;
@@ -185,7 +217,7 @@ Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samp
                       row.linear_solves > 0 ?
                                         most_of_scout * of_scout :
                                         most_of_own * row.force_evaluations * Motion::horizon / stepping.time_step;
-  Motion motion = counted_motion(scene, stepping, most, samples);
+  Motion motion = counted_motion(scene, stepping, most, samples, is_enough);
   const bool may_be_too_long = std::isinf(likely_limit(row));
   if (may_be_too_long && motion.excess > tolerated_excess && motion.excess > most_excess())
   {
@@ -194,9 +226,10 @@ Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samp
   return motion;
 }
 
-Motion Trials::counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples)
+Motion Trials::counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples,
+                              const IsEnough& is_enough)
 {
-  Motion motion = motion_of(scene, stepping, most_evaluations, samples);
+  Motion motion = motion_of(scene, stepping, most_evaluations, samples, is_enough);
   seconds_ += evaluations_in(motion.counters) * evaluation_ * nodes_of(scene) / nodes_of(scene_);
   return motion;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -47,17 +48,27 @@ public:
     return evaluation_;
   }
 
-  /// By what factor these steps err more on the sheet itself, which has more modes to be wrong about, than `on_trial`
-  /// does on the coarser grid, over the first so many samples.
-  double grid_allowance(const Stepping& stepping, const Stepping& on_trial, int samples);
+  /// What the sheet itself, which has more modes to be wrong about, says of steps that were tried on the coarser grid.
+  struct Check
+  {
+    double factor = 1.0;      ///< by which they err more there
+    double difference = 0.0;  ///< m; from half of the steps over the whole second; 0: that was not run
+  };
+
+  /// `stepping` on the sheet against `on_trial` on the coarser grid, over the first so many samples.
+  Check check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples);
+
+  /// How far the nodes move on the coarser grid, m, root mean square.
+  double travel(const Motion& motion) const;
 
   /// By how much the answer by these steps changes without the parts, m; infinite where they are all that keeps it
-  /// together.
-  double change_without(const std::vector<std::string>& parts, const Stepping& stepping);
+  /// together. Where that is more than `enough` (m) already some time before the horizon, by how much at least.
+  double change_without(const std::vector<std::string>& parts, const Stepping& stepping, double enough);
 
   /// The same on the sheet itself, which has shorter waves to be changed by it, where it was `change` on the coarser
   /// grid.
-  double change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change);
+  double change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change,
+                             double enough);
 
   /// The motion on the coarser grid. Cut off where it takes many times as long as steps of its length do, and where it
   /// solves equations once it takes a quarter of what the scout's longest steps take; it is none where steps that
@@ -73,8 +84,15 @@ private:
   bool is_coarser() const;
   /// Whether some runs on the sheet itself, as long together as `horizons`, take too long.
   bool takes_too_long(const Stepping& stepping, double horizons) const;
-  Motion run(const StartedScene& scene, const Stepping& stepping, int samples = Motion::samples);
-  Motion counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples);
+  using IsEnough = std::function<bool(const Motion&)>;
+  Motion run(const StartedScene& scene, const Stepping& stepping, int samples = Motion::samples,
+             const IsEnough& is_enough = {});
+  Motion counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples,
+                        const IsEnough& is_enough = {});
+  /// Of the sheet itself, at least the first so many samples.
+  const Motion& motion_of_the_sheet(const Stepping& stepping, int samples);
+  double change_from(const Motion& whole, StartedScene scene, const std::vector<std::string>& parts,
+                     const Stepping& stepping, double enough);
   double most_excess();
 
   StartedScene scene_;
@@ -83,8 +101,9 @@ private:
   Spectrum spectrum_;  ///< of the coarser grid
   double scout_step_;  ///< the scout's longest there, s
   double seconds_ = 0.0;
-  std::optional<double> most_excess_;  ///< of strain above its limit, relative to that
-  std::map<std::string, Motion> motions_;
+  std::optional<double> most_excess_;                   ///< of strain above its limit, relative to that
+  std::map<std::string, Motion> motions_;               ///< on the coarser grid
+  std::map<std::string, Motion> motions_of_the_sheet_;  ///< itself
 };
 
 }  // namespace cloth

@@ -248,7 +248,7 @@ TEST(MatrixOptions, SayWhichScenesAndWhatIsDone)
   const MatrixOptions options =
       parsed({ "--scenes", "8", "--seed", "3", "--half", "held_out", "--only", "plans", "--out", "there" });
   EXPECT_EQ(options.settings.scenes, 8);
-  EXPECT_EQ(options.settings.seed, 3U);
+  EXPECT_EQ(options.settings.held_out_seed, 3U);
   EXPECT_EQ(options.halves, std::vector<Half>{ Half::held_out });
   EXPECT_FALSE(options.searches);
   EXPECT_TRUE(options.plans);

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth_sim/scene/scene_reader.h"
+
 #include "grid_report.h"
 #include "scene/scene_text.h"
 #include "support.h"
+#include "trials.h"
 
 namespace cloth
 {
@@ -177,6 +180,58 @@ TEST(Planned, SaysWhereTheToleranceCannotBeHad)
   const Planned planned = plan_by_trial(scene, costs);
   EXPECT_GT(planned.choice.error, 1e-6);
   EXPECT_TRUE(has(planned.reason, { "the tolerance of 1.0e-06 m cannot be had" })) << planned.reason;
+}
+
+StartedScene shipped(const std::string& name, const std::vector<std::pair<std::string, std::string>>& settings)
+{
+  YAML::Node tree = load_scene_file("config/" + name + ".yaml");
+  for (const auto& [key, value] : settings)
+  {
+    override_key(tree, key, value);
+  }
+  const SceneParams params = read_scene(tree);
+  return { params, scene_start(params, make_sheet(params.sheet)) };
+}
+
+double error_of(const StartedScene& scene, const Choice& choice)
+{
+  const double limit = simulation_of(scene, { scout }).stability_limit();
+  return distance(planned_motion(scene, choice), motion_of(scene, { scout, 0.25 * limit }, any_number));
+}
+
+/// What folds parts from itself, and the plan claims by how much.
+TEST(Planned, ClaimsWhatIsTrueOfSheetsThatFold)
+{
+  StepCosts costs("");
+  for (const char* const max_strain : { "0", "0.1" })
+  {
+    const StartedScene scene = shipped("hanging_sheet", { { "strain_limit.max_strain", max_strain } });
+    const Planned planned = plan_by_trial(scene, costs);
+    const double error = error_of(scene, planned.choice);
+    EXPECT_TRUE(has(planned.reason, { "cannot be had, since the motion parts from itself" })) << planned.reason;
+    EXPECT_GT(planned.choice.error, 0.3 * error) << max_strain;
+    EXPECT_LT(planned.choice.error, 3.0 * error) << max_strain;
+  }
+}
+
+/// A few long steps of xpbd err as if they were short ones; half of them on the sheet itself tell.
+TEST(Planned, BelievesNoLongStepsThatTheSheetItselfBelies)
+{
+  StepCosts costs("");
+  const StartedScene scene = shipped("free_sheet", {});
+  const Choice choice = plan_by_trial(scene, costs).choice;
+  EXPECT_LE(choice.error, scene.params.solver.tolerance);
+  EXPECT_LE(error_of(scene, choice), scene.params.solver.tolerance);
+}
+
+/// In real time there are steps of xpbd alone that err by a metre.
+TEST(Planned, IsRatherSlowerThanOfNoUse)
+{
+  StepCosts costs("");
+  const StartedScene scene = shipped(
+      "hanging_sheet", { { "cloth.rows", "128" }, { "cloth.cols", "128" }, { "strain_limit.max_strain", "0" } });
+  const Planned planned = plan_by_trial(scene, costs);
+  EXPECT_LT(planned.choice.error, 0.1) << planned.reason;
 }
 
 TEST(GridReport, NamesAGridThatWouldDo)
