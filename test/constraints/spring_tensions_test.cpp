@@ -77,6 +77,30 @@ TEST(SpringTensions, FromNothingTakePassesInProportionToTheLengthOfAChain)
   EXPECT_LT(passes_from_nothing(65), 2.7 * 2.7 * passes);
 }
 
+/// Its tethers say in one pass what springs, of which each knows its neighbours alone, say in a hundred.
+TEST(SpringTensions, ShortenAStretchedChainThatIsHeldAtOnceAndPullOnItsPin)
+{
+  for (const int nodes : { 9, 65 })
+  {
+    const ClothModel model = make_sheet(small_sheet(nodes, 1));
+    ClothState state{ 1.2 * model.rest_positions, Vectors::Zero(nodes, 3), 0.0 };
+    const Vectors before = state.positions;
+    Pins pins(nodes);
+    pins.hold(still_pin("end", { 0 }, before));
+    Vectors impulses = Vectors::Zero(nodes, 3);
+    StrainLimit strain_limit(model, { limit, 100, LimitSolver::tensions });
+    const StrainLimit::Report report = strain_limit.apply(model, pins, 0.1, state, &impulses);
+    EXPECT_TRUE(report.reached) << nodes;
+    EXPECT_LE(report.sweeps, 2) << nodes;
+    const double held = 1.0 + strain_limit.held_strain();
+    const Vectors expected =
+        before.row(0).replicate(nodes, 1) + held * (model.rest_positions.rowwise() - model.rest_positions.row(0));
+    EXPECT_LT((state.positions - expected).cwiseAbs().maxCoeff(), 1e-12) << nodes;
+    const Eigen::RowVector3d gained = model.masses.transpose() * state.velocities;
+    EXPECT_LT((impulses.row(0) + gained).norm(), 1e-12 * gained.norm()) << nodes;
+  }
+}
+
 TEST(SpringTensions, KeepTheLimitAtEveryStepOfASwing)
 {
   Simulation simulation = swinging_sheet(24, 5e-4, LimitSolver::tensions, 10000);
