@@ -29,7 +29,8 @@ namespace cloth
 /// without tension is Provot's shortening of it, and what it did too much is given back later. The tensions of the last
 /// step are the first guess at the next one's, as p ~ h^2 times a force that changes slowly; most of the work is done
 /// by then, whatever the grid. As vectors they keep the guess stable: it is a correction that was right, not a force
-/// along springs that have turned. Where two passes are not enough, the others have momentum.
+/// along springs that have turned. Tethers to the held nodes are springs like the others, visited once, before the
+/// passes. Where two passes are not enough, the others have momentum.
 class SpringTensions : public Shortening
 {
 public:

@@ -19,8 +19,8 @@ class SpringTethers
 public:
   explicit SpringTethers(const ClothModel& model);
 
-  /// The nodes of inverse mass 0 are held from now on; where they are many there are no tethers: each has more free
-  /// nodes near it, and a pass visits every node for each of them.
+  /// The nodes of inverse mass 0 (1/kg) are held from now on. Where they are many there are no tethers: a pass would
+  /// visit every node for each of them, and no node is far from one.
   void prepare(const Eigen::VectorXd& inverse_masses);
 
   /// Takes over the tensions of `before`, of the same sheet.
