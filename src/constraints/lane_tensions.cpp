@@ -174,8 +174,9 @@ int LaneTensions::follow(LaneNodes& nodes, double max_strain, int passes, double
   }
   margin_ += std::clamp(wanted_margin_ - margin_, -margin_speed * h, margin_speed * h);
   const float target = stretch_held(max_strain);
-  const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess_between));
-  const bool is_watched = ++follows_ % follows_a_watch == 0 || falls_behind_;
+  const double excess = excess_between(max_strain, h);
+  const auto most = static_cast<float>(1.0 + max_strain * (1.0 + excess));
+  const bool is_watched = ++follows_ % follows_a_watch == 0 || falls_behind_ || excess < most_excess_between;
   const int allowed = std::min(passes, is_watched ? most_passes_between : there_and_back);
   float factor = pull_as_before(nodes, target);
   int done = 0;
@@ -208,6 +209,12 @@ int LaneTensions::finish(LaneNodes& nodes, double max_strain, int passes)
   wanted_margin_ = falls_behind_ ? std::min(margin_growth * std::max(wanted_margin_, first_margin), most_margin) :
                                    std::max(margin_decay * wanted_margin_, least_margin);
   return done;
+}
+
+double LaneTensions::excess_between(double max_strain, double h) const
+{
+  const double longest = *std::max_element(rest_lengths_.begin(), rest_lengths_.end());
+  return std::min(most_excess_between, most_speed_of_excess * h / (max_strain * longest));
 }
 
 float LaneTensions::stretch_held(double max_strain) const

@@ -51,11 +51,14 @@ private:
   static constexpr double margin_speed = 0.3;  ///< 1/s, at most: springs that are tightened faster shake the sheet
   /// The excess that there may be, relative to max_strain. Rounding of the positions takes its part of
   /// StrainLimit::tolerance.
-  static constexpr double excess_between = 0.2;
+  static constexpr double most_excess_between = 0.2;
+  /// Between substeps it is less where they are so short that taking it back at once would throw nodes about, m/s.
+  static constexpr double most_speed_of_excess = 0.5;
   static constexpr double excess_at_end = 0.5 * StrainLimit::tolerance;
   static constexpr int there_and_back = 2;
   static constexpr int most_passes_between = 24;
-  /// So seldom are slack springs and the excess looked at while nothing falls behind.
+  /// So seldom are slack springs and the excess looked at while nothing falls behind, unless substeps are short: what
+  /// has been missed in some of them is taken back in one, as a speed so many times as high.
   static constexpr int follows_a_watch = 4;
   static constexpr double most_growth = 2.0;  ///< of tensions, from one substep to the next
 
@@ -72,6 +75,7 @@ private:
     bool was_taut = false;  ///< likewise, after the iteration before
   };
 
+  double excess_between(double max_strain, double h) const;
   /// Of springs at the margin, in lengths at rest.
   float stretch_held(double max_strain) const;
   void choose_first_margin(const LaneNodes& nodes, double max_strain);
