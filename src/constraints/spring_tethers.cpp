@@ -193,11 +193,9 @@ bool SpringTethers::relax(const double* inverse_masses, const Columns<double>& p
         if (tether.is_taut[v] || has_taut(nodes, lengths, stretch))
         {
           is_any = true;
-          tether.is_taut[v] =
-              relax_some<arithmetic.has_fused_multiply_add>(nodes, inverse_masses + first, lengths, stretch,
-                                                            tether.tensions.from(first), factor) ?
-                  1 :
-                  0;
+          const bool stays_taut = relax_some<arithmetic.has_fused_multiply_add>(
+              nodes, inverse_masses + first, lengths, stretch, tether.tensions.from(first), factor);
+          tether.is_taut[v] = stays_taut ? 1 : 0;
         }
       }
     }
