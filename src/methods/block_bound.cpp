@@ -49,8 +49,8 @@ private:
 
 }  // namespace
 
-double block_bound(const Dynamics& dynamics, const Vectors& positions,
-                   const std::function<BlockCoefficients(const SpringBatch&)>& coefficients)
+Eigen::VectorXd block_bounds(const Dynamics& dynamics, const Vectors& positions,
+                             const std::function<BlockCoefficients(const SpringBatch&)>& coefficients)
 {
   constexpr double alike = 1.0;  // for both ends
   const ClothModel& model = dynamics.model();
@@ -98,7 +98,7 @@ double block_bound(const Dynamics& dynamics, const Vectors& positions,
       bound[i] = 2.0 * w[i] * block.largest_eigenvalue();
     }
   });
-  return std::max(0.0, bounds.maxCoeff());
+  return bounds.cwiseMax(0.0);
 }
 
 }  // namespace cloth

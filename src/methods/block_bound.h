@@ -14,10 +14,11 @@ struct BlockCoefficients
   double across;  ///< b
 };
 
-/// A bound that holds for the largest eigenvalue of M^-1 times the matrix that has A on the diagonal and -A beside it
-/// for every spring, held nodes left out: [A -A; -A A] is at most twice its diagonal blocks, so it is the largest of
-/// 2/m_i times the largest eigenvalue of node i's block, the sum of A over its springs. No coefficient may be negative.
-double block_bound(const Dynamics& dynamics, const Vectors& positions,
-                   const std::function<BlockCoefficients(const SpringBatch&)>& coefficients);
+/// For each node what the largest of all is a bound that holds for the largest eigenvalue of M^-1 times the matrix that
+/// has A on the diagonal and -A beside it for every spring, held nodes left out: [A -A; -A A] is at most twice its
+/// diagonal blocks, so it is 2/m_i times the largest eigenvalue of node i's block, the sum of A over its springs; 0 for
+/// held nodes. No coefficient may be negative.
+Eigen::VectorXd block_bounds(const Dynamics& dynamics, const Vectors& positions,
+                             const std::function<BlockCoefficients(const SpringBatch&)>& coefficients);
 
 }  // namespace cloth

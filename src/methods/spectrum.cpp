@@ -58,7 +58,7 @@ template <typename AddProduct>
 double lanczos_estimate(const Dynamics& dynamics, const Vectors& positions, AddProduct&& add_product)
 {
   const ClothModel& model = dynamics.model();
-  const Eigen::ArrayXd roots = model.masses.array().sqrt();
+  const Eigen::ArrayXd inverse_roots = model.masses.array().rsqrt();
   Vectors q = noise(model.nodes());
   dynamics.pins().clear_held(q);
   if (q.isZero(0.0))
@@ -67,6 +67,7 @@ double lanczos_estimate(const Dynamics& dynamics, const Vectors& positions, AddP
   }
   q.normalize();
   Vectors previous = Vectors::Zero(model.nodes(), 3);
+  Vectors scaled(model.nodes(), 3);
   Vectors product(model.nodes(), 3);
   std::vector<double> diagonal;
   std::vector<double> beside;
@@ -74,10 +75,11 @@ double lanczos_estimate(const Dynamics& dynamics, const Vectors& positions, AddP
   RitzValue ritz;
   for (int step = 0; step < most_lanczos_steps; ++step)
   {
+    scaled = q.array().colwise() * inverse_roots;
     product.setZero();
-    add_product(model, positions, q.array().colwise() / roots, product);
+    add_product(model, positions, scaled, product);
     dynamics.pins().clear_held(product);
-    product.array().colwise() /= roots;
+    product.array().colwise() *= inverse_roots;
     diagonal.push_back(q.cwiseProduct(product).sum());
     product -= diagonal.back() * q + beta * previous;
     beta = product.norm();
@@ -107,6 +109,23 @@ double largest_damping_ratio(const ClothModel& model)
   return largest;
 }
 
+/// Twice the largest sum of what the springs of a free node have, over its mass.
+double twice_the_largest_sum(const Dynamics& dynamics, double SpringBatch::*coefficient)
+{
+  const ClothModel& model = dynamics.model();
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(model.nodes());
+  for (const SpringBatch& batch : model.springs)
+  {
+    for_each_spring(batch, [&](int i, int j) {
+      sums[i] += batch.*coefficient;
+      sums[j] += batch.*coefficient;
+    });
+  }
+  Eigen::VectorXd inverse_masses(model.nodes());
+  dynamics.pins().find_inverse_masses(model.masses, inverse_masses);
+  return 2.0 * sums.cwiseProduct(inverse_masses).maxCoeff();
+}
+
 bool damping_matters(const SpectrumBounds& bounds)
 {
   return bounds.damping > damping_that_matters * std::sqrt(bounds.stiffness);
@@ -117,16 +136,17 @@ bool damping_matters(const SpectrumBounds& bounds)
 SpectrumBounds spectrum_bounds(const Dynamics& dynamics, const Vectors& positions)
 {
   SpectrumBounds bounds;
-  bounds.stiffness = block_bound(dynamics, positions, [](const SpringBatch& batch) {
+  bounds.node_stiffness = block_bounds(dynamics, positions, [](const SpringBatch& batch) {
     return BlockCoefficients{ batch.stiffness, batch.stiffness };
   });
+  bounds.stiffness = bounds.node_stiffness.maxCoeff();
   bounds.damping = largest_damping_ratio(dynamics.model()) * bounds.stiffness;
   if (damping_matters(bounds))
   {
-    const double damping = block_bound(dynamics, positions, [](const SpringBatch& batch) {
+    bounds.node_damping = block_bounds(dynamics, positions, [](const SpringBatch& batch) {
       return BlockCoefficients{ batch.damping, 0.0 };
     });
-    bounds.damping = std::min(bounds.damping, damping);
+    bounds.damping = std::min(bounds.damping, bounds.node_damping.maxCoeff());
   }
   return bounds;
 }
@@ -149,14 +169,28 @@ Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions, const S
   Spectrum spectrum;
   spectrum.frequency = std::sqrt(bounds.stiffness);
   spectrum.damping_ratio = largest_damping_ratio(model);
-  const double undamped = block_bound(dynamics, positions, [&](const SpringBatch& batch) {
+  const auto undamped_part = [&](const SpringBatch& batch) {
     const double damped = spectrum.damping_ratio > 0.0 ? batch.damping / spectrum.damping_ratio : 0.0;
     return BlockCoefficients{ batch.stiffness - damped, batch.stiffness };
-  });
+  };
+  const double undamped = block_bounds(dynamics, positions, undamped_part).maxCoeff();
   // A spring at rest is stretched by a rounding error at most, which stiffens nothing.
   const bool is_rounding = undamped <= 1e-12 * bounds.stiffness;
   spectrum.undamped_frequency = is_rounding ? 0.0 : std::sqrt(std::min(bounds.stiffness, undamped));
   spectrum.most_spring_damping = bounds.damping;
+  spectrum.least_air_damping = dynamics.air().least_damping_rate(model);
+  spectrum.most_air_damping = dynamics.air().damping_rate(model);
+  return spectrum;
+}
+
+Spectrum spectrum_of_any_shape(const Dynamics& dynamics)
+{
+  const ClothModel& model = dynamics.model();
+  Spectrum spectrum;
+  spectrum.frequency = std::sqrt(twice_the_largest_sum(dynamics, &SpringBatch::stiffness));
+  spectrum.undamped_frequency = spectrum.frequency;
+  spectrum.damping_ratio = largest_damping_ratio(model);
+  spectrum.most_spring_damping = twice_the_largest_sum(dynamics, &SpringBatch::damping);
   spectrum.least_air_damping = dynamics.air().least_damping_rate(model);
   spectrum.most_air_damping = dynamics.air().damping_rate(model);
   return spectrum;

@@ -36,6 +36,12 @@ public:
   /// Whether there is an error at any step: two runs without a reference, one with it.
   bool is_known() const;
 
+  /// Whether the error at the longest step but one is more than a guess from a single difference.
+  bool has_two() const
+  {
+    return has_reference() || differences_.size() > 1;
+  }
+
   /// Whether the errors fall as they do where steps are short enough for the method's order to show.
   bool falls() const;
 

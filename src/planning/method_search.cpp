@@ -19,8 +19,14 @@ constexpr size_t enough_runs = 4;
 constexpr double least_of_finest = 0.5;
 /// What a step that solves equations takes at least, in evaluations of the forces.
 constexpr double evaluations_of_a_solve = 300.0;
+/// And in parts of what it took in another method's longest steps.
+constexpr double share_of_another_solve = 0.5;
 /// What a pass takes that handles springs one after the other, likewise.
 constexpr double evaluations_of_an_iteration = 3.0;
+/// What a trial may take that only makes an estimate better, s of work.
+constexpr double cheap_trial = 0.1;
+/// A longer step that errs by this factor more is as good.
+constexpr double hardly_more = 1.05;
 /// By how much errors of long steps that damp what they should not fall faster than the order says.
 constexpr double order_of_lost_damping = 1.5;
 
@@ -29,9 +35,11 @@ class StepLengthSearch : public MethodSearch
 {
 public:
   StepLengthSearch(const MethodRow& row, const SearchedScene& searched)
-    : row_(row), searched_(searched), is_limited_(std::isfinite(likely_limit(row, searched.spectrum)))
+    : row_(row)
+    , searched_(searched)
+    , is_limited_(std::isfinite(likely_limit(row, searched.trials.spectrum_of_the_sheet())))
   {
-    take_limits(likely_limit(row, searched.spectrum), searched.trials.likely_limit(row));
+    take_limits(likely_limit(row, searched.trials.spectrum_of_the_sheet()), searched.trials.likely_limit(row));
   }
 
   bool is_over() const override
@@ -66,7 +74,8 @@ public:
   {
     if (!errors_)
     {
-      take_limits(network_stability_limit(row_, searched_.spectrum), searched_.trials.limit(row_));
+      take_limits(network_stability_limit(row_, searched_.trials.spectrum_of_the_sheet()),
+                  searched_.trials.limit(row_));
       if (!(longest_ >= Simulation::shortest_step))
       {
         is_over_ = true;
@@ -110,7 +119,7 @@ public:
       return {};
     }
     const double shortest = std::clamp(errors_->finest_step() / stretch(), shortest_affordable, longest_);
-    const double as_exact = errors_->step_for(level_errors * errors_->error_of(shortest * stretch())) / stretch();
+    const double as_exact = errors_->step_for(hardly_more * errors_->error_of(shortest * stretch())) / stretch();
     return candidate_of(std::clamp(as_exact, shortest, longest_));
   }
 
@@ -156,7 +165,10 @@ private:
 
   double evaluations_a_step() const
   {
-    const double least = row_.force_evaluations + row_.linear_solves * evaluations_of_a_solve;
+    const double of_a_solve =
+        std::max(evaluations_of_a_solve, share_of_another_solve * searched_.trials.evaluations_of_a_solve());
+    const double least =
+        row_.force_evaluations + row_.linear_solves * (row_.iterates_locally ? evaluations_of_a_solve : of_a_solve);
     return std::max(counted_, row_.iterates_locally ? evaluations_of_an_iteration * least : least);
   }
 
@@ -185,9 +197,11 @@ private:
     const double finest = errors_->finest_step() / stretch();
     const double step = std::min(longest_, errors_->step_for(searched_.allowed) / stretch());
     const bool is_stability = step == longest_;
-    if (step >= least_of_finest * finest || is_stability)
+    const bool may_be_longer = !is_stability && !errors_->has_two() && row_.order > 1 && trial_cost() < cheap_trial;
+    if ((step >= least_of_finest * finest && !may_be_longer) || is_stability)
     {
       found_ = candidate_of(step);
+      found_->error = std::min(found_->error, searched_.allowed);  // but for rounding it is
     }
   }
 
@@ -195,12 +209,20 @@ private:
   {
     const bool as_limited = is_limited_ && time_step == longest_ && !is_given_;
     const Stepping stepping = stepping_of(as_limited ? 0.0 : time_step);
-    const bool is_measured = row_.linear_solves > 0 || row_.iterates_locally;
-    const double cost = is_measured ? searched_.costs.of_a_step(searched_.scene, stepping_of(time_step)) / time_step :
-                                      cost_of(time_step);
+    const bool counts_evaluations = row_.linear_solves == 0 && !row_.iterates_locally;
+    const double of_a_step = counts_evaluations ? evaluations_a_step() * searched_.costs.of_an_evaluation(
+                                                                             searched_.scene, stepping_of(time_step)) :
+                                                  searched_.costs.of_a_step(searched_.scene, stepping_of(time_step));
     const double of_trials = std::min(longest_on_trials_, as_limited ? longest_on_trials_ : time_step * stretch());
-    return { &row_,     stepping, time_step, errors_->error_of(time_step * stretch()), cost, stepping_of(of_trials),
-             stretch(), time_step };
+    return { &row_,
+             stepping,
+             time_step,
+             errors_->error_of(time_step * stretch()),
+             of_a_step / time_step,
+             stepping_of(of_trials),
+             stretch(),
+             time_step,
+             longest_ };
   }
 
   const MethodRow& row_;
@@ -223,7 +245,7 @@ public:
   ToleranceSearch(const MethodRow& row, const SearchedScene& searched)
     : row_(row)
     , searched_(searched)
-    , longest_(likely_limit(row, searched.spectrum))
+    , longest_(likely_limit(row, searched.trials.spectrum_of_the_sheet()))
     , shrinkage_(std::max(1.0, searched.trials.likely_limit(row) / longest_))
     , tolerance_(first_tolerance * searched.allowed)
   {
@@ -314,7 +336,7 @@ private:
     const auto steps = static_cast<double>(std::max<std::uint64_t>(1, counters_of_last().steps));
     const double mean_step = Motion::horizon / (shrinkage_ * steps);
     const Stepping stepping = stepping_of(tried_.back());
-    return { &row_, stepping, mean_step, error_, cost_of_last(), stepping, 1.0, mean_step };
+    return { &row_, stepping, mean_step, error_, cost_of_last(), stepping, 1.0, mean_step, mean_step };
   }
 
   const MethodRow& row_;
@@ -332,7 +354,7 @@ private:
 
 std::unique_ptr<MethodSearch> search_of(const MethodRow& row, const SearchedScene& searched)
 {
-  if (!(likely_limit(row, searched.spectrum) >= Simulation::shortest_step))
+  if (!(likely_limit(row, searched.trials.spectrum_of_the_sheet()) >= Simulation::shortest_step))
   {
     return nullptr;
   }

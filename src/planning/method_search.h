@@ -26,6 +26,7 @@ struct Candidate
   Stepping on_trials;       ///< the same on the coarser grid, with steps as long as that allows
   double stretch;           ///< how much longer a step there does the same
   double longest;           ///< time_step as it was found, s: a check may shorten it
+  double longest_of_all;    ///< of the method's steps on the scene itself, s
   bool is_checked = false;  ///< on the sheet itself
 };
 
@@ -33,8 +34,7 @@ struct Candidate
 struct SearchedScene
 {
   const StartedScene& scene;
-  Spectrum spectrum;  ///< of its sheet at the start
-  double allowed;     ///< m; what a candidate may err by
+  double allowed;  ///< m; what a candidate may err by
   Trials& trials;
   StepCosts& costs;
 };

@@ -52,7 +52,7 @@ const std::vector<ModelPart>& optional_parts()
   return parts;
 }
 
-SceneParams without(SceneParams scene, const std::vector<std::string>& names)
+SceneParams without(SceneParams scene, const PartList& names)
 {
   for (const ModelPart& part : optional_parts())
   {

@@ -19,10 +19,12 @@ struct ModelPart
 /// The name of the part that keeps short waves down, of which a coarser grid has none.
 extern const char* const internal_damping;
 
+using PartList = std::vector<std::string>;
+
 /// Those that are dear enough to be worth a trial.
 const std::vector<ModelPart>& optional_parts();
 
 /// The scene without the parts of these names.
-SceneParams without(SceneParams scene, const std::vector<std::string>& names);
+SceneParams without(SceneParams scene, const PartList& names);
 
 }  // namespace cloth

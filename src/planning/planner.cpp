@@ -1,7 +1,7 @@
 #include "planner.h"
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cloth_sim/scene/scene_reader.h"
 
@@ -14,79 +14,89 @@ namespace cloth
 namespace
 {
 
-/// Parts are left out where that changes the answer by less than this part of the tolerance.
-constexpr double trial_share = 0.25;
-/// Method and step may err by this part of it.
+/// Of the tolerance: what method and step may err by.
 constexpr double step_share = 0.5;
 
-struct LeftOut
+/// What is left out, and the cheapest steps without it. None: no method has a stable step.
+struct Found
 {
-  std::vector<std::string> parts;
-  double change = 0.0;  ///< of the answer without all of them, m
+  LeftOut left_out;
+  std::optional<Candidate> best;
+  std::string reason;
 };
 
-/// What changes the answer least goes first; what is left out stays within its share together with the rest.
-LeftOut parts_to_leave_out(Trials& trials, const Candidate& best, double allowed, std::vector<TriedPart>& tried)
+Found search_steps(const StartedScene& scene, Trials& trials, StepCosts& costs, const LeftOut& left_out)
+{
+  const double tolerance = scene.params.solver.tolerance;
+  StepSearch search(scene, trials, step_share * tolerance, costs);
+  search.run();
+  return { left_out, search.best(), search.best() ? search.reason(tolerance) : "" };
+}
+
+Probe probe_by(const Candidate& best)
 {
   Stepping on_scene = best.stepping;
   on_scene.time_step = best.row->is_adaptive ? on_scene.time_step : best.time_step;
-  const double enough = trials.scene().params.solver.tolerance;
-  const auto change_without = [&](const std::vector<std::string>& parts) {
-    const double change = trials.change_without(parts, best.on_trials, enough);
-    const bool lets_short_waves_grow = std::find(parts.begin(), parts.end(), internal_damping) != parts.end();
-    return change < allowed && lets_short_waves_grow ? trials.change_on_the_sheet(parts, on_scene, change, enough) :
-                                                       change;
-  };
-  for (const ModelPart& part : optional_parts())
+  return { best.on_trials, on_scene };
+}
+
+/// Without the parts that the scout says may go, where the tolerance can be had: what is below the error of steps
+/// cannot be seen.
+std::optional<Found> search_without_parts(const StartedScene& scene, Trials& trials, StepCosts& costs,
+                                          std::vector<TriedPart>& tried)
+{
+  const LeftOut left_out = parts_to_leave_out(trials, scouts(trials), true, tried);
+  if (left_out.parts.empty())
   {
-    if (part.is_there(trials.scene().params))
+    return std::nullopt;
+  }
+  StartedScene lesser = scene;
+  lesser.params = without(scene.params, left_out.parts);
+  Trials lesser_trials(lesser, costs);
+  Found found = search_steps(lesser, lesser_trials, costs, left_out);
+  return found.best && found.best->error <= scene.params.solver.tolerance ? std::optional<Found>(found) : std::nullopt;
+}
+
+/// Parts are tried first, by the scout, since a model without them may have other steps; by the steps that were found,
+/// where the scout takes too long.
+Found search_all(const StartedScene& scene, StepCosts& costs, std::vector<TriedPart>& tried)
+{
+  Trials trials(scene, costs);
+  const bool tries_parts = scene.params.plan == "auto";
+  const bool tries_parts_first = tries_parts && can_afford_scouts(trials);
+  if (tries_parts_first)
+  {
+    if (const std::optional<Found> found = search_without_parts(scene, trials, costs, tried))
     {
-      tried.push_back({ part.name, change_without({ part.name }) });
+      return *found;
     }
   }
-  std::vector<TriedPart> by_change = tried;
-  std::stable_sort(by_change.begin(), by_change.end(),
-                   [](const TriedPart& one, const TriedPart& other) { return one.change < other.change; });
-  LeftOut left_out;
-  for (const TriedPart& part : by_change)
+  Found found = search_steps(scene, trials, costs, {});
+  if (found.best && tries_parts && !tries_parts_first)
   {
-    std::vector<std::string> parts = left_out.parts;
-    parts.push_back(part.part);
-    const double change = left_out.parts.empty() ? part.change : change_without(parts);
-    if (!(part.change < allowed) || !(change < allowed))
-    {
-      break;
-    }
-    left_out = { parts, change };
+    const bool can_tell = found.best->error <= scene.params.solver.tolerance;
+    found.left_out = parts_to_leave_out(trials, probe_by(*found.best), can_tell, tried);
   }
-  return left_out;
+  return found;
 }
 
 }  // namespace
 
 Planned plan_by_trial(const StartedScene& scene, StepCosts& costs)
 {
-  const double tolerance = scene.params.solver.tolerance;
-  Trials trials(scene, costs);
-  StepSearch search(scene, trials, step_share * tolerance, costs);
-  search.run();
-  if (!search.best())
+  Planned result;
+  const Found found = search_all(scene, costs, result.tried);
+  if (!found.best)
   {
     throw SceneError("solver.method: auto, but no method has a stable step for this scene");
   }
-  Planned result;
-  LeftOut left_out;
-  if (scene.params.plan == "auto")
-  {
-    const bool can_tell = search.best()->error <= tolerance;
-    left_out = parts_to_leave_out(trials, *search.best(), can_tell ? trial_share * tolerance : 0.0, result.tried);
-  }
-  const Stepping& stepping = search.best()->stepping;
-  const double method_tolerance = search.best()->row->is_adaptive ? stepping.tolerance : tolerance;
-  result.choice = { left_out.parts,     stepping.method,     stepping.time_step,
-                    method_tolerance,   stepping.iterations, std::hypot(search.best()->error, left_out.change),
-                    search.best()->cost };
-  result.reason = search.reason(tolerance);
+  const Stepping& stepping = found.best->stepping;
+  const double tolerance = found.best->row->is_adaptive ? stepping.tolerance : scene.params.solver.tolerance;
+  result.choice = { found.left_out.parts, stepping.method,
+                    stepping.time_step,   tolerance,
+                    stepping.iterations,  std::hypot(found.best->error, found.left_out.change),
+                    found.best->cost };
+  result.reason = found.reason;
   return result;
 }
 

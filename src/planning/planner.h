@@ -5,18 +5,12 @@
 
 #include "cloth_sim/scene/choice.h"
 
+#include "part_trials.h"
 #include "started_scene.h"
 #include "step_costs.h"
 
 namespace cloth
 {
-
-/// What a trial said of a part of the model.
-struct TriedPart
-{
-  std::string part;
-  double change;  ///< of the answer without it, m; at least, where that is more than the tolerance
-};
 
 /// A choice, and why.
 struct Planned

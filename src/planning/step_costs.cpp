@@ -22,9 +22,10 @@ namespace
 constexpr const char* base_method = "velocity_verlet";
 /// Between what was measured and its seconds, in a line of the file.
 const std::string separator = ": ";
+constexpr int base_rounds = 6;
 constexpr int rounds = 3;
 /// Seconds of one timing, about, and the steps in it: a simulation looks after itself every 64 steps.
-constexpr double timing = 5e-4;
+constexpr double timing = 1e-3;
 constexpr int least_steps = 2;
 constexpr int most_steps = 64;
 
@@ -128,7 +129,7 @@ double StepCosts::of_a_step(const StartedScene& scene, const Stepping& stepping)
   double seconds = 0.0;
   if (stepping.method == base_method)
   {
-    std::array<double, rounds> times;
+    std::array<double, base_rounds> times;
     for (double& time : times)
     {
       time = base.seconds_a_step();
@@ -150,6 +151,12 @@ double StepCosts::of_a_step(const StartedScene& scene, const Stepping& stepping)
   seconds_[key] = seconds;
   keep();
   return seconds;
+}
+
+double StepCosts::of_an_evaluation(StartedScene scene, const Stepping& stepping)
+{
+  scene.params.strain_limit.max_strain = 0.0;
+  return of_a_step(scene, stepping) / find_method(stepping.method)->force_evaluations;
 }
 
 void StepCosts::keep()

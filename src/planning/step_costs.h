@@ -22,6 +22,9 @@ public:
   /// velocity_verlet in turn: a machine that others use too is slower for seconds at a time. Throws SceneError.
   double of_a_step(const StartedScene& scene, const Stepping& stepping);
 
+  /// Of one of its evaluations of the forces, with what the step does besides; the passes of a strain limit are none.
+  double of_an_evaluation(StartedScene scene, const Stepping& stepping);
+
 private:
   void keep();
 

@@ -6,6 +6,8 @@
 
 #include "cloth_sim/scene/yaml_text.h"
 
+#include "part_trials.h"
+
 namespace cloth
 {
 namespace
@@ -34,6 +36,14 @@ constexpr double reference_share = 0.25;
 /// this part of what they may be.
 constexpr int early_samples = 2;
 constexpr double critical_share = 0.1;
+
+/// How many steps are tried to come between this part of what is allowed and all of it; how errors may grow with the
+/// step, and by what factor it may change at a time.
+constexpr int most_fits = 6;
+constexpr double fit = 0.85;
+constexpr double least_slope = 0.4;
+constexpr double most_slope = 3.0;
+constexpr double most_change = 4.0;
 
 /// A motion that errs by more than this part of how far the nodes move is of no use, and one that is slower than real
 /// time is better where it errs by so many times less.
@@ -67,15 +77,14 @@ std::string in_two_digits(double number)
 }
 
 StepSearch::StepSearch(const StartedScene& scene, Trials& trials, double allowed, StepCosts& costs)
-  : searched_{ scene, {}, allowed, trials, costs }
+  : searched_{ scene, allowed, trials, costs }
 {
-  const Simulation simulation = simulation_of(scene, { scout });
-  searched_.spectrum = spectrum_of(simulation.dynamics(), simulation.state().positions);
   for (const MethodRow& row : methods())
   {
     if (std::unique_ptr<MethodSearch> search = search_of(row, searched_))
     {
-      scout_ = row.name == std::string(scout) ? search.get() : scout_;
+      scout_ = &row == &trials.scout() ? search.get() : scout_;
+      scout_of_second_order_ = &row == &Trials::scout_of_second_order() ? search.get() : scout_of_second_order_;
       searches_.push_back(std::move(search));
     }
   }
@@ -102,13 +111,21 @@ void StepSearch::find_more()
       found_.push_back(*candidate);
       std::stable_sort(found_.begin(), found_.end(), is_cheaper);
     }
+    // Where errors of first order do not fall, those of second order still may.
+    const bool is_at_its_floor = scout_ != nullptr && scout_->is_at_its_floor();
+    scout_ = is_at_its_floor && scout_of_second_order_ != nullptr ? scout_of_second_order_ : scout_;
   }
 }
 
 /// None: nothing more can come of any, or what may come is not worth the trials.
 MethodSearch* StepSearch::next_search() const
 {
-  if (!found_.empty() || scout_ == nullptr || scout_->reference().motion == nullptr)
+  const bool is_scout_known = scout_ != nullptr && scout_->reference().motion != nullptr;
+  if (scout_ != nullptr && !is_scout_known && !scout_->is_over() && can_afford_scouts(searched_.trials))
+  {
+    return scout_;
+  }
+  if (!found_.empty() || !is_scout_known)
   {
     return most_promising();
   }
@@ -188,26 +205,71 @@ bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
   return search.least_cost() < level * best && search.trial_cost() < most_cost;
 }
 
+/// What takes longer than real time allows is checked only where nothing else is of use.
 bool StepSearch::is_cheapest_checked() const
 {
-  return found_.empty() || found_.front().is_checked;
+  return found_.empty() || found_.front().is_checked || found_.front().cost > real_time_share;
 }
 
 /// What is the cheapest may be another then, or one that is worth a trial only now.
 void StepSearch::check_cheapest()
 {
-  found_.front() = checked(found_.front());
+  found_.front() = made_exact_enough(checked(found_.front()));
   std::stable_sort(found_.begin(), found_.end(), is_cheaper);
 }
 
+/// What passes that work locally leave undone on a coarser grid says little of the sheet itself. Where the scout's run
+/// there is not too dear their steps are fitted to err by what is allowed, as the line through the last two errors has
+/// it. None: they do not come to it.
+std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) const
+{
+  std::optional<Candidate> best;
+  double error_before = 0.0;
+  double step_before = 0.0;
+  for (int run = 0; run < most_fits; ++run)
+  {
+    candidate.stepping.time_step = candidate.time_step;
+    candidate.error = searched_.trials.error_on_the_sheet(candidate.stepping);
+    const bool is_exact_enough = candidate.error <= searched_.allowed;
+    if (is_exact_enough && (!best || candidate.time_step > best->time_step))
+    {
+      best = candidate;
+    }
+    const bool is_longest = candidate.time_step >= candidate.longest_of_all;
+    if (!std::isfinite(candidate.error) ||
+        (is_exact_enough && (is_longest || candidate.error > fit * searched_.allowed)))
+    {
+      break;
+    }
+    const double slope = run == 0 ?
+                             candidate.row->order :
+                             std::log(candidate.error / error_before) / std::log(candidate.time_step / step_before);
+    error_before = candidate.error;
+    step_before = candidate.time_step;
+    const double aim = 0.5 * (1.0 + fit) * searched_.allowed;
+    const double factor = std::pow(aim / candidate.error, 1.0 / std::clamp(slope, least_slope, most_slope));
+    const double step =
+        std::min(candidate.time_step * std::clamp(factor, 1.0 / most_change, most_change), candidate.longest_of_all);
+    candidate.cost *= candidate.time_step / step;
+    candidate.time_step = step;
+  }
+  return best;
+}
+
 /// A sheet has more modes to be wrong about than the coarser one of the trials: by what factor, is taken from the check
-/// before where trials have taken long already. What was exact enough is made so again by shorter steps.
+/// before where trials have taken long already.
 Candidate StepSearch::checked(Candidate candidate)
 {
   candidate.is_checked = true;
   if (candidate.row->is_adaptive)
   {
     return candidate;
+  }
+  const bool may_be_fitted = candidate.row->iterates_locally && candidate.error <= searched_.allowed &&
+                             searched_.trials.can_afford_the_scout_on_the_sheet();
+  if (const std::optional<Candidate> fitted = may_be_fitted ? fitted_on_the_sheet(candidate) : std::nullopt)
+  {
+    return *fitted;
   }
   Stepping on_scene = candidate.stepping;
   Stepping on_trials = candidate.stepping;
@@ -229,9 +291,15 @@ Candidate StepSearch::checked(Candidate candidate)
   const int order = order_of(candidate);
   const double gain = std::exp2(order);
   candidate.error = std::max(candidate.error * check.factor, check.difference * gain / (gain - 1.0));
-  if (was_exact_enough && candidate.error > searched_.allowed)
+  return candidate;
+}
+
+/// Of what was exact enough until it was checked.
+Candidate StepSearch::made_exact_enough(Candidate candidate) const
+{
+  if (candidate.error > searched_.allowed)
   {
-    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / order);
+    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / order_of(candidate));
     candidate.time_step *= shorter;
     candidate.stepping.time_step = candidate.time_step;
     candidate.cost /= shorter;
@@ -257,6 +325,7 @@ void StepSearch::choose()
   dearer_ = is_found ? in_words(found_.front()) : "";
   best_ = parts_from_itself() ? parted(scout_->nearest(real_time_share)) : is_found ? lengthened() : std::nullopt;
   best_ = best_ ? best_ : nearest_in_real_time();
+  best_ = best_ && !best_->is_checked ? checked(*best_) : best_;
   if (best_ && !is_useless(*best_))
   {
     return;
@@ -327,11 +396,11 @@ std::optional<Candidate> StepSearch::nearest_in_real_time()
   const auto nearest = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
     return candidate.error <= level_errors * least;
   });
-  return nearest == candidates.end() ? std::nullopt : std::optional<Candidate>(checked(*nearest));
+  return nearest == candidates.end() ? std::nullopt : std::optional<Candidate>(*nearest);
 }
 
 /// Long steps may all err alike, and differ little from each other: against the most exact motion that is known,
-/// however far it parts from itself, they do. Steps that are affordable are tried down to the shortest.
+/// however far it parts from itself, they do. Steps are tried until the last one is not affordable.
 void StepSearch::approach_in_real_time() const
 {
   for (const std::unique_ptr<MethodSearch>& search : searches_)
@@ -342,7 +411,7 @@ void StepSearch::approach_in_real_time() const
       continue;
     }
     search->hold_against(reference);
-    while (!search->is_over() && search->next_cost() <= real_time_share &&
+    while (!search->is_over() && search->next_cost() < 2.0 * real_time_share &&
            searched_.trials.seconds() + search->trial_cost() < most_seconds)
     {
       search->try_next(reference);

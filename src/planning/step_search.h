@@ -40,6 +40,8 @@ private:
   bool is_cheapest_checked() const;
   void check_cheapest();
   Candidate checked(Candidate candidate);
+  Candidate made_exact_enough(Candidate candidate) const;
+  std::optional<Candidate> fitted_on_the_sheet(Candidate candidate) const;
   int order_of(const Candidate& candidate) const;
   void choose();
   bool parts_from_itself() const;
@@ -52,6 +54,7 @@ private:
   SearchedScene searched_;
   std::vector<std::unique_ptr<MethodSearch>> searches_;
   MethodSearch* scout_ = nullptr;
+  MethodSearch* scout_of_second_order_ = nullptr;
   std::vector<Candidate> found_;  ///< the cheapest first
   std::optional<double> factor_;  ///< by which steps err more on the sheet itself, as was checked last
   std::optional<Candidate> best_;

@@ -7,8 +7,6 @@
 #include "cloth_sim/scene/scene_reader.h"
 #include "cloth_sim/scene/yaml_text.h"
 
-#include "model_parts.h"
-
 namespace cloth
 {
 namespace
@@ -16,9 +14,14 @@ namespace
 
 constexpr int fewest_nodes = 8;
 constexpr int most_factor = 16;
-/// What all trials may take, s of work, about; and how many there are, in runs of the scout at its longest step.
+/// What all trials may take, s of work, about, those of the sheet itself and of coarser ones; and how many there are,
+/// in runs of the scout at its longest step.
+constexpr double most_seconds_of_the_sheet = 0.3;
 constexpr double most_seconds = 3.0;
 constexpr double expected_trials = 12.0;
+
+/// How much shorter steps may be than those of first order.
+constexpr double much_shorter = 1.5;
 
 /// A run that takes this many times what steps of its length take leads to nothing; neither does one that solves
 /// equations where it takes longer than a part of the scout's, or one that chooses its steps where it takes much
@@ -33,39 +36,65 @@ constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_allowance = 30.0;
 constexpr double untried_allowance = 3.0;
 constexpr double most_seconds_on_the_sheet = 2.0;
+constexpr double most_seconds_of_the_scout = 0.3;
 
 /// What passes of the strain limit that are too few for a step may leave of a strain, relative to the limit, whatever
 /// the scout's steps leave, and how many times what those leave, in which luck has a part.
 constexpr double tolerated_excess = 0.1;
 constexpr double excess_of_luck = 1.5;
 
+const char* const first_order = "symplectic_euler";
+const char* const second_order = "velocity_verlet";
+
 double nodes_of(const StartedScene& scene)
 {
   return static_cast<double>(scene.start.state.positions.rows());
 }
 
-std::string key_of(const Stepping& stepping)
+std::string key_of(const Stepping& stepping, const PartList& left_out)
 {
-  return stepping.method + " " + format_number(stepping.time_step) + " " + format_number(stepping.tolerance) + " " +
-         std::to_string(stepping.iterations);
+  std::string key = stepping.method + " " + format_number(stepping.time_step) + " " +
+                    format_number(stepping.tolerance) + " " + std::to_string(stepping.iterations);
+  for (const std::string& part : left_out)
+  {
+    key += " without " + part;
+  }
+  return key;
+}
+
+StartedScene scene_without(StartedScene scene, const PartList& parts)
+{
+  scene.params = without(scene.params, parts);
+  return scene;
 }
 
 int coarsening_of(const StartedScene& scene, double seconds_a_run)
 {
+  const double of_the_sheet = expected_trials * seconds_a_run;
+  const bool is_small = std::min(scene.params.sheet.rows, scene.params.sheet.cols) <= fewest_nodes;
+  if (is_small || of_the_sheet <= most_seconds_of_the_sheet)
+  {
+    return 1;
+  }
   int factor = 2;
-  for (double seconds = expected_trials * seconds_a_run / 8.0; seconds > most_seconds && factor < most_factor;
-       seconds /= 8.0)
+  for (double seconds = of_the_sheet / 8.0; seconds > most_seconds && factor < most_factor; seconds /= 8.0)
   {
     factor *= 2;
   }
-  return std::min(scene.params.sheet.rows, scene.params.sheet.cols) <= fewest_nodes ? 1 : factor;
+  return factor;
 }
 
-/// The scout evaluates the forces once a step where no limit interferes.
-StartedScene without_limit(StartedScene scene)
+Spectrum spectrum_at_the_start(const StartedScene& scene)
 {
-  scene.params.strain_limit.max_strain = 0.0;
-  return scene;
+  const Simulation simulation = simulation_of(scene, { second_order });
+  return spectrum_of(simulation.dynamics(), simulation.state().positions);
+}
+
+const MethodRow& scout_for(const Spectrum& spectrum)
+{
+  const MethodRow& first = *find_method(first_order);
+  const MethodRow& second = *find_method(second_order);
+  return cloth::likely_limit(first, spectrum) > much_shorter * cloth::likely_limit(second, spectrum) ? first : second;
 }
 
 /// The sheet itself where pins that are apart would come to hold the same node.
@@ -74,7 +103,7 @@ StartedScene pilot_of(const StartedScene& scene, int factor)
   StartedScene pilot = coarser(scene, factor, fewest_nodes);
   try
   {
-    simulation_of(pilot, { scout });
+    simulation_of(pilot, { second_order });
   }
   catch (const SceneError&)
   {
@@ -85,16 +114,21 @@ StartedScene pilot_of(const StartedScene& scene, int factor)
 
 }  // namespace
 
-const char* const scout = "velocity_verlet";
-
 Trials::Trials(const StartedScene& scene, StepCosts& costs)
-  : scene_(scene), evaluation_(costs.of_a_step(without_limit(scene), { scout }))
+  : scene_(scene)
+  , spectrum_of_the_sheet_(spectrum_at_the_start(scene))
+  , scout_(scout_for(spectrum_of_the_sheet_))
+  , evaluation_(costs.of_an_evaluation(scene, { second_order }))
 {
-  const double seconds_a_run = Motion::horizon / simulation_of(scene, { scout }).time_step() * evaluation_;
-  pilot_ = pilot_of(scene, coarsening_of(scene, seconds_a_run));
-  const Simulation simulation = simulation_of(pilot_, { scout });
-  spectrum_ = spectrum_of(simulation.dynamics(), simulation.state().positions);
-  scout_step_ = Simulation::limit_share * limit(simulation.method());
+  const double step = Simulation::limit_share * network_stability_limit(scout_, spectrum_of_the_sheet_);
+  pilot_ = pilot_of(scene, coarsening_of(scene, Motion::horizon / step * evaluation_));
+  spectrum_ = is_coarser() ? spectrum_at_the_start(pilot_) : spectrum_of_the_sheet_;
+  scout_step_ = Simulation::limit_share * limit(scout_);
+}
+
+const MethodRow& Trials::scout_of_second_order()
+{
+  return *find_method(second_order);
 }
 
 bool Trials::is_coarser() const
@@ -141,8 +175,10 @@ Trials::Check Trials::check_on_the_sheet(const Stepping& stepping, const Steppin
     steps.time_step *= 0.5;
     return steps;
   };
-  const double difference =
-      distance(motion_of_the_sheet(stepping, samples), motion_of_the_sheet(halved(stepping), samples), samples);
+  const auto of_the_sheet = [&](const Stepping& steps) -> const Motion& {
+    return known_or_run(scene_, {}, steps, samples, motions_of_the_sheet_);
+  };
+  const double difference = distance(of_the_sheet(stepping), of_the_sheet(halved(stepping)), samples);
   const double ratio =
       difference / distance(run(pilot_, on_trial, samples), run(pilot_, halved(on_trial), samples), samples);
   const bool is_early = samples < Motion::samples;
@@ -152,6 +188,19 @@ Trials::Check Trials::check_on_the_sheet(const Stepping& stepping, const Steppin
            !is_early && std::isfinite(difference) ? difference : 0.0 };
 }
 
+double Trials::error_on_the_sheet(const Stepping& stepping)
+{
+  const Motion& exact =
+      known_or_run(scene_, {}, longest_of_scout_on_the_sheet(), Motion::samples, motions_of_the_sheet_);
+  return distance(known_or_run(scene_, {}, stepping, Motion::samples, motions_of_the_sheet_), exact);
+}
+
+bool Trials::can_afford_the_scout_on_the_sheet() const
+{
+  const double seconds = Motion::horizon / longest_of_scout_on_the_sheet().time_step * evaluation_;
+  return is_coarser() && seconds < most_seconds_of_the_scout;
+}
+
 double Trials::travel(const Motion& motion) const
 {
   Motion at_rest = motion;
@@ -159,32 +208,46 @@ double Trials::travel(const Motion& motion) const
   return distance(motion, at_rest, static_cast<int>(motion.positions.size()));
 }
 
-double Trials::change_without(const std::vector<std::string>& parts, const Stepping& stepping, double enough)
+double Trials::change(const PartList& parts, const PartList& more, const Stepping& stepping, double enough)
 {
-  return change_from(motion(stepping), pilot_, parts, stepping, enough);
+  return change_between(parts, more, stepping, enough, pilot_, motions_);
 }
 
-double Trials::change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change,
-                                   double enough)
+double Trials::change_on_the_sheet(const PartList& parts, const PartList& more, const Stepping& stepping,
+                                   double on_trials, double enough)
 {
   if (!is_coarser())
   {
-    return change;
+    return on_trials;
   }
   if (takes_too_long(stepping, 2.0))
   {
-    return untried_allowance * change;
+    return untried_allowance * on_trials;
   }
-  return std::max(change, change_from(motion_of_the_sheet(stepping, Motion::samples), scene_, parts, stepping, enough));
+  return change_between(parts, more, stepping, enough, scene_, motions_of_the_sheet_);
 }
 
-double Trials::change_from(const Motion& whole, StartedScene scene, const std::vector<std::string>& parts,
-                           const Stepping& stepping, double enough)
+double Trials::change_between(const PartList& parts, const PartList& more, const Stepping& stepping, double enough,
+                              const StartedScene& scene, Motions& motions)
 {
-  scene.params = without(scene.params, parts);
+  const Motion& whole = known_or_run(scene, parts, stepping, Motion::samples, motions);
   const auto is_enough = [&](const Motion& so_far) { return least_distance(whole, so_far) > enough; };
-  const Motion lesser = run(scene, stepping, Motion::samples, is_enough);
+  Motion& lesser = motions[key_of(stepping, more)];
+  if (lesser.positions.size() < size_t(Motion::samples))
+  {
+    lesser = run(scene_without(scene, more), stepping, Motion::samples, is_enough);
+  }
   return is_enough(lesser) ? least_distance(whole, lesser) : distance(whole, lesser);
+}
+
+Stepping Trials::longest_of_scout() const
+{
+  return { scout_.name, scout_step_ };
+}
+
+Stepping Trials::longest_of_scout_on_the_sheet() const
+{
+  return { scout_.name, Simulation::limit_share * network_stability_limit(scout_, spectrum_of_the_sheet_) };
 }
 
 bool Trials::takes_too_long(const Stepping& stepping, double horizons) const
@@ -194,17 +257,18 @@ bool Trials::takes_too_long(const Stepping& stepping, double horizons) const
 
 const Motion& Trials::motion(const Stepping& stepping)
 {
-  const std::string key = key_of(stepping);
+  const std::string key = key_of(stepping, {});
   const auto known = motions_.find(key);
   return known != motions_.end() ? known->second : motions_.emplace(key, run(pilot_, stepping)).first->second;
 }
 
-const Motion& Trials::motion_of_the_sheet(const Stepping& stepping, int samples)
+const Motion& Trials::known_or_run(const StartedScene& scene, const PartList& left_out, const Stepping& stepping,
+                                   int samples, Motions& motions)
 {
-  Motion& motion = motions_of_the_sheet_[key_of(stepping)];
+  Motion& motion = motions[key_of(stepping, left_out)];
   if (static_cast<int>(motion.positions.size()) < samples)
   {
-    motion = run(scene_, stepping, samples);
+    motion = run(scene_without(scene, left_out), stepping, samples);
   }
   return motion;
 }
@@ -218,6 +282,11 @@ Motion Trials::run(const StartedScene& scene, const Stepping& stepping, int samp
                                         most_of_scout * of_scout :
                                         most_of_own * row.force_evaluations * Motion::horizon / stepping.time_step;
   Motion motion = counted_motion(scene, stepping, most, samples, is_enough);
+  const auto solves = static_cast<double>(motion.counters.steps) * row.linear_solves;
+  if (evaluations_of_a_solve_ == 0.0 && solves > 0.0 && !row.iterates_locally)
+  {
+    evaluations_of_a_solve_ = evaluations_in(motion.counters) / solves;
+  }
   const bool may_be_too_long = std::isinf(likely_limit(row));
   if (may_be_too_long && motion.excess > tolerated_excess && motion.excess > most_excess())
   {
@@ -238,9 +307,8 @@ double Trials::most_excess()
 {
   if (!most_excess_)
   {
-    const Stepping longest{ scout, scout_step_ };
     const double of_scout =
-        counted_motion(pilot_, longest, std::numeric_limits<double>::infinity(), Motion::samples).excess;
+        counted_motion(pilot_, longest_of_scout(), std::numeric_limits<double>::infinity(), Motion::samples).excess;
     most_excess_ = excess_of_luck * of_scout;
   }
   return *most_excess_;

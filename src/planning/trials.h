@@ -8,15 +8,13 @@
 
 #include "cloth_sim/methods/spectrum.h"
 
+#include "model_parts.h"
 #include "pilot.h"
 #include "started_scene.h"
 #include "step_costs.h"
 
 namespace cloth
 {
-
-/// The method that others are held against: no other explicit one is as cheap for its order.
-extern const char* const scout;
 
 /// All trial runs of a scene, on a coarser grid where that is cheaper.
 class Trials
@@ -25,12 +23,35 @@ public:
   /// Throws SceneError where the scene cannot be stepped.
   Trials(const StartedScene& scene, StepCosts& costs);
 
+  /// The method that others are held against: of second order, and as cheap as any explicit one, unless the springs'
+  /// damping makes its steps much shorter than those of the cheapest of first order.
+  const MethodRow& scout() const
+  {
+    return scout_;
+  }
+
+  /// The one of second order.
+  static const MethodRow& scout_of_second_order();
+
+  /// Of the sheet itself, at the start.
+  const Spectrum& spectrum_of_the_sheet() const
+  {
+    return spectrum_of_the_sheet_;
+  }
+
   /// How much longer the cells are than the scene's.
   double coarseness() const;
 
   /// The stability limit of a method on the coarser grid, s, and what it is likely to be.
   double limit(const MethodRow& row) const;
   double likely_limit(const MethodRow& row) const;
+
+  /// What it took to solve a step's equations in the first run that had to, in evaluations of the forces; 0: none had
+  /// to.
+  double evaluations_of_a_solve() const
+  {
+    return evaluations_of_a_solve_;
+  }
 
   /// Of a run with steps of this length, s of work: those of as many evaluations of the forces.
   double seconds_of_a_run(double time_step, double evaluations_a_step) const;
@@ -58,17 +79,29 @@ public:
   /// `stepping` on the sheet against `on_trial` on the coarser grid, over the first so many samples.
   Check check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples);
 
+  /// How far steps are from the scout's longest on the sheet itself over the whole second, m; infinite where either of
+  /// them diverges.
+  double error_on_the_sheet(const Stepping& stepping);
+
+  /// Whether there is time for the scout on the sheet itself.
+  bool can_afford_the_scout_on_the_sheet() const;
+
   /// How far the nodes move on the coarser grid, m, root mean square.
   double travel(const Motion& motion) const;
 
-  /// By how much the answer by these steps changes without the parts, m; infinite where they are all that keeps it
-  /// together. Where that is more than `enough` (m) already some time before the horizon, by how much at least.
-  double change_without(const std::vector<std::string>& parts, const Stepping& stepping, double enough);
+  /// By how much the answer by these steps changes where `more` is left out instead of `parts`, m; infinite where that
+  /// is what keeps it together. Where that is more than `enough` (m) already some time before the horizon, by how much
+  /// at least.
+  double change(const PartList& parts, const PartList& more, const Stepping& stepping, double enough);
 
-  /// The same on the sheet itself, which has shorter waves to be changed by it, where it was `change` on the coarser
+  /// The same on the sheet itself, which has shorter waves to be changed by it, where it was `on_trials` on the coarser
   /// grid.
-  double change_on_the_sheet(const std::vector<std::string>& parts, const Stepping& stepping, double change,
+  double change_on_the_sheet(const PartList& parts, const PartList& more, const Stepping& stepping, double on_trials,
                              double enough);
+
+  /// The scout's longest steps.
+  Stepping longest_of_scout() const;
+  Stepping longest_of_scout_on_the_sheet() const;
 
   /// The motion on the coarser grid. Cut off where it takes many times as long as steps of its length do, and where it
   /// solves equations once it takes a quarter of what the scout's longest steps take; it is none where steps that
@@ -89,21 +122,26 @@ private:
              const IsEnough& is_enough = {});
   Motion counted_motion(const StartedScene& scene, const Stepping& stepping, double most_evaluations, int samples,
                         const IsEnough& is_enough = {});
-  /// Of the sheet itself, at least the first so many samples.
-  const Motion& motion_of_the_sheet(const Stepping& stepping, int samples);
-  double change_from(const Motion& whole, StartedScene scene, const std::vector<std::string>& parts,
-                     const Stepping& stepping, double enough);
+  using Motions = std::map<std::string, Motion>;
+  /// At least the first so many samples.
+  const Motion& known_or_run(const StartedScene& scene, const PartList& left_out, const Stepping& stepping, int samples,
+                             Motions& motions);
+  double change_between(const PartList& parts, const PartList& more, const Stepping& stepping, double enough,
+                        const StartedScene& scene, Motions& motions);
   double most_excess();
 
   StartedScene scene_;
-  StartedScene pilot_;
+  Spectrum spectrum_of_the_sheet_;
+  const MethodRow& scout_;
   double evaluation_;
+  StartedScene pilot_;
   Spectrum spectrum_;  ///< of the coarser grid
   double scout_step_;  ///< the scout's longest there, s
   double seconds_ = 0.0;
-  std::optional<double> most_excess_;                   ///< of strain above its limit, relative to that
-  std::map<std::string, Motion> motions_;               ///< on the coarser grid
-  std::map<std::string, Motion> motions_of_the_sheet_;  ///< itself
+  double evaluations_of_a_solve_ = 0.0;
+  std::optional<double> most_excess_;  ///< of strain above its limit, relative to that
+  Motions motions_;                    ///< on the coarser grid
+  Motions motions_of_the_sheet_;       ///< itself
 };
 
 }  // namespace cloth

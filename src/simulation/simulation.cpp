@@ -249,8 +249,9 @@ double Simulation::longest_step() const
 
 double Simulation::limited_step() const
 {
-  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_, counters_.steps);
   const double wanted = error_watch_.corrected_step().value_or(given_time_step_);
+  const double enough = wanted > 0.0 ? wanted / given_share_ : std::numeric_limits<double>::infinity();
+  const double limit = stability_watch_.limit(*method_row_, dynamics_, state_, counters_.steps, enough);
   if (wanted > 0.0 && wanted <= given_share_ * limit)
   {
     return wanted;

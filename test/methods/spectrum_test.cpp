@@ -280,6 +280,28 @@ TEST(Spectrum, BoundOfTheDampingHolds)
   }
 }
 
+TEST(Spectrum, OfAnyShapeHoldsForAllOfThem)
+{
+  SheetProperties sheet = small_sheet(6, 7);
+  sheet.structural.damping = 1.0;
+  Dynamics dynamics(make_sheet(sheet), Eigen::Vector3d::Zero(), vacuum());
+  dynamics.pins().hold(still_pin("corner", { 0 }, dynamics.model().rest_positions));
+  const Spectrum of_any_shape = spectrum_of_any_shape(dynamics);
+  const double most_stiffness = of_any_shape.frequency * of_any_shape.frequency;
+  Noise noise;
+  for (const double stretch : { 0.1, 1.0, 10.0 })
+  {
+    const Vectors positions =
+        stretch * (dynamics.model().rest_positions + 0.03 * noise.vectors(dynamics.model().nodes()));
+    const LinearisedNetwork network(dynamics, positions);
+    EXPECT_GE(most_stiffness, network.largest_stiffness()) << stretch;
+    EXPECT_GE(of_any_shape.most_spring_damping, network.largest_damping()) << stretch;
+  }
+  const SpectrumBounds flat = spectrum_bounds(dynamics, dynamics.model().rest_positions);
+  EXPECT_LE(most_stiffness, 2.0 * flat.stiffness);
+  EXPECT_LE(of_any_shape.most_spring_damping, 2.0 * flat.damping);
+}
+
 TEST(Spectrum, NothingFreeToMoveHasNoMode)
 {
   Dynamics dynamics(make_sheet(chain(2, 100.0, 0.5)), Eigen::Vector3d::Zero(), vacuum());

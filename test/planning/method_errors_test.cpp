@@ -17,7 +17,7 @@ namespace
 StartedScene damped_sheet()
 {
   const SceneParams params = scene_of(
-      "{cloth: {rows: 16, cols: 16, ripple: 0.01}, air: {viscous_damping: 3, wind_coupling: 0}, strain_limit: "
+      "{cloth: {rows: 9, cols: 9, ripple: 0.01}, air: {viscous_damping: 3, wind_coupling: 0}, strain_limit: "
       "{max_strain: 0}}");
   return { params, scene_start(params, make_sheet(params.sheet)) };
 }

@@ -41,9 +41,43 @@ TEST(Trials, OfALimitThatNoStepKeepsAreHeldAgainstTheScout)
 {
   StepCosts costs("");
   Trials trials(limited_sheet("0.05", 1), costs);
-  const Motion& of_scout = trials.motion({ scout, 0.5 * trials.limit(*find_method(scout)) });
+  const Motion& of_scout = trials.motion({ trials.scout().name, 0.5 * trials.limit(trials.scout()) });
   EXPECT_EQ(of_scout.positions.size(), size_t(Motion::samples));
   EXPECT_GT(of_scout.excess, 0.1);
+}
+
+/// Damped by as much as the springs let go back, steps of second order are half as long as those of first order.
+TEST(Trials, HaveAScoutOfFirstOrderWhereDampingMakesItMuchCheaper)
+{
+  StepCosts costs("");
+  const auto scout_at = [&](double damping) {
+    StartedScene scene = limited_sheet("0", 8);
+    scene.params.sheet.structural.damping = damping;
+    return std::string(Trials(scene, costs).scout().name);
+  };
+  EXPECT_EQ(scout_at(0.0), "velocity_verlet");
+  EXPECT_EQ(scout_at(1.0), "symplectic_euler");
+}
+
+/// A motion takes as long as it does: what is cheap is tried as it is, for the sake of what cells are too long for.
+TEST(Trials, AreOfTheSheetItselfWhereThatIsCheap)
+{
+  StepCosts costs("");
+  StartedScene scene = limited_sheet("0", 8);
+  EXPECT_EQ(Trials(scene, costs).coarseness(), 1.0);
+  scene.params.sheet.structural.stiffness = 1e6;
+  EXPECT_GT(Trials(scene, costs).coarseness(), 1.5);
+}
+
+TEST(Trials, FindNoErrorInTheScoutItself)
+{
+  StepCosts costs("");
+  Trials trials(limited_sheet("0", 8), costs);
+  const Stepping longest = trials.longest_of_scout_on_the_sheet();
+  EXPECT_EQ(trials.error_on_the_sheet(longest), 0.0);
+  Stepping half = longest;
+  half.time_step *= 0.5;
+  EXPECT_GT(trials.error_on_the_sheet(half), 0.0);
 }
 
 TEST(Trials, KnowNoExcessWithoutALimit)

@@ -28,9 +28,12 @@ struct SpectrumBounds
 {
   double stiffness = 0.0;  ///< for omega^2, the largest eigenvalue of M^-1 K, 1/s2
   double damping = 0.0;    ///< for D, the largest eigenvalue of M^-1 C, 1/s
+  /// What each node's springs have to do with them: the largest is the bound. Empty where D's is damping_ratio omega^2.
+  Eigen::VectorXd node_stiffness;
+  Eigen::VectorXd node_damping;
 };
 
-/// Bounds that hold, from the springs at each node (`block_bound`); for D where internal damping matters to explicit
+/// Bounds that hold, from the springs at each node (`block_bounds`); for D where internal damping matters to explicit
 /// steps, or else damping_ratio omega^2. Exact for omega^2 inside a flat uniform sheet, up to 1.5 times too large on
 /// shipped scenes.
 SpectrumBounds spectrum_bounds(const Dynamics& dynamics, const Vectors& positions);
@@ -46,6 +49,11 @@ Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions);
 
 /// The same from bounds alone.
 Spectrum spectrum_of(const Dynamics& dynamics, const Vectors& positions, const SpectrumBounds& bounds);
+
+/// Bounds for the network in whatever shape, however its springs are stretched: no spring is stiffer than k in any
+/// direction, so that omega^2 is at most twice the stiffness of a node's springs over its mass. In a flat sheet that is
+/// up to twice what it is.
+Spectrum spectrum_of_any_shape(const Dynamics& dynamics);
 
 /// The largest step that is stable for every mode that a network of this spectrum can have, s.
 double network_stability_limit(const MethodRow& method, const Spectrum& spectrum);

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model_parts.h"
+#include "trials.h"
+
+namespace cloth
+{
+
+/// What a trial said of a part of the model.
+struct TriedPart
+{
+  std::string part;
+  double change;  ///< of the answer without it, m; at least, where that is more than the tolerance
+};
+
+struct LeftOut
+{
+  PartList parts;
+  double change = 0.0;  ///< of the answer without all of them, m
+};
+
+/// The steps that parts are tried by.
+struct Probe
+{
+  Stepping on_trials;  ///< on the coarser grid
+  Stepping on_scene;   ///< on the sheet itself
+};
+
+/// What may be left out: what changes the answer by less than a quarter of the tolerance where all that changes it less
+/// is left out already, as long as it is less than a half together. Nothing, where `allows_any` is false. Adds to
+/// `tried` what was found of each part, those that change it least first.
+LeftOut parts_to_leave_out(Trials& trials, const Probe& probe, bool allows_any, std::vector<TriedPart>& tried);
+
+/// The scout's longest steps, where there is time for as many of its runs as parts may take.
+bool can_afford_scouts(const Trials& trials);
+Probe scouts(const Trials& trials);
+
+}  // namespace cloth
