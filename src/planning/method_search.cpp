@@ -25,8 +25,6 @@ constexpr double share_of_another_solve = 0.5;
 constexpr double evaluations_of_an_iteration = 3.0;
 /// What a trial may take that only makes an estimate better, s of work.
 constexpr double cheap_trial = 0.1;
-/// A longer step that errs by this factor more is as good.
-constexpr double hardly_more = 1.05;
 /// By how much errors of long steps that damp what they should not fall faster than the order says.
 constexpr double order_of_lost_damping = 1.5;
 
@@ -107,7 +105,7 @@ public:
     return found_;
   }
 
-  std::optional<Candidate> nearest(double most_cost) const override
+  std::optional<Candidate> nearest(double most_cost, double hardly_more) const override
   {
     if (!errors_ || !errors_->is_known() || !std::isfinite(errors_->error_of_finest()))
     {
@@ -300,7 +298,7 @@ public:
     return found_;
   }
 
-  std::optional<Candidate> nearest(double most_cost) const override
+  std::optional<Candidate> nearest(double most_cost, double /*hardly_more*/) const override
   {
     const bool is_known = !tried_.empty() && std::isfinite(error_) && cost_of_last() <= most_cost;
     return is_known ? std::optional<Candidate>(candidate()) : std::nullopt;

@@ -66,8 +66,9 @@ public:
   /// The cheapest steps that are exact enough.
   virtual std::optional<Candidate> found() const = 0;
 
-  /// The most exact of the steps that cost no more than so much.
-  virtual std::optional<Candidate> nearest(double most_cost) const = 0;
+  /// The most exact of the steps that cost no more than so much, or longer ones that err by hardly more, by this factor
+  /// at most.
+  virtual std::optional<Candidate> nearest(double most_cost, double hardly_more) const = 0;
 
   /// Its most exact run so far.
   virtual MethodErrors::Reference reference() const = 0;

@@ -32,6 +32,9 @@ constexpr double saving_of_last_trials = 8.0;
 /// A reference errs by no more than this part of what may be erred by.
 constexpr double reference_share = 0.25;
 
+/// What comes nearest in real time is made longer only where it errs by hardly more, by this factor at most.
+constexpr double hardly_more = 1.05;
+
 /// How many samples are enough to compare a sheet's errors with those of a coarser one, unless they are larger than
 /// this part of what they may be.
 constexpr int early_samples = 2;
@@ -323,16 +326,19 @@ void StepSearch::choose()
     return;
   }
   dearer_ = is_found ? in_words(found_.front()) : "";
-  best_ = parts_from_itself() ? parted(scout_->nearest(real_time_share)) : is_found ? lengthened() : std::nullopt;
+  best_ = parts_from_itself() ? parted(scout_->nearest(real_time_share, level_errors)) :
+          is_found            ? lengthened() :
+                                std::nullopt;
   best_ = best_ ? best_ : nearest_in_real_time();
   best_ = best_ && !best_->is_checked ? checked(*best_) : best_;
   if (best_ && !is_useless(*best_))
   {
     return;
   }
-  std::optional<Candidate> slower = is_found          ? found_.front() :
-                                    scout_ != nullptr ? scout_->nearest(std::numeric_limits<double>::infinity()) :
-                                                        std::nullopt;
+  std::optional<Candidate> slower = is_found ? found_.front() :
+                                    scout_ != nullptr ?
+                                               scout_->nearest(std::numeric_limits<double>::infinity(), level_errors) :
+                                               std::nullopt;
   slower = parts_from_itself() ? parted(slower) : slower;
   if (slower && (!best_ || worth_waiting_for * slower->error < best_->error))
   {
@@ -382,7 +388,7 @@ std::optional<Candidate> StepSearch::nearest_in_real_time()
   std::vector<Candidate> candidates;
   for (const std::unique_ptr<MethodSearch>& search : searches_)
   {
-    if (const std::optional<Candidate> candidate = search->nearest(real_time_share))
+    if (const std::optional<Candidate> candidate = search->nearest(real_time_share, hardly_more))
     {
       candidates.push_back(*candidate);
     }
