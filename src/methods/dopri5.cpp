@@ -125,11 +125,17 @@ private:
   double last_error_ = 1e-4;
 };
 
+double stability_limit(const Mode& mode)
+{
+  static const StabilityRegion region(tableau());
+  return region.limit(mode);
+}
+
 }  // namespace
 
 const MethodRow dopri5{ "dopri5",
                         5,
-                        [](const Mode& mode) { return stability_limit(tableau(), mode); },
+                        stability_limit,
                         { -1.0 / 1800.0, 6 },
                         false,
                         true,

@@ -13,11 +13,17 @@ const Tableau& tableau()
   return coefficients;
 }
 
+double stability_limit(const Mode& mode)
+{
+  static const StabilityRegion region(tableau());
+  return region.limit(mode);
+}
+
 }  // namespace
 
 const MethodRow explicit_euler{ "explicit_euler",
                                 1,
-                                [](const Mode& mode) { return stability_limit(tableau(), mode); },
+                                stability_limit,
                                 { 1.0, 2 },
                                 false,
                                 false,

@@ -14,11 +14,17 @@ const Tableau& tableau()
   return coefficients;
 }
 
+double stability_limit(const Mode& mode)
+{
+  static const StabilityRegion region(tableau());
+  return region.limit(mode);
+}
+
 }  // namespace
 
 const MethodRow midpoint{ "midpoint",
                           2,
-                          [](const Mode& mode) { return stability_limit(tableau(), mode); },
+                          stability_limit,
                           { 0.25, 4 },
                           false,
                           false,

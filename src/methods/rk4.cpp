@@ -15,11 +15,17 @@ const Tableau& tableau()
   return coefficients;
 }
 
+double stability_limit(const Mode& mode)
+{
+  static const StabilityRegion region(tableau());
+  return region.limit(mode);
+}
+
 }  // namespace
 
 const MethodRow rk4{ "rk4",
                      4,
-                     [](const Mode& mode) { return stability_limit(tableau(), mode); },
+                     stability_limit,
                      { -1.0 / 72.0, 6 },
                      false,
                      false,

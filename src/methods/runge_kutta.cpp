@@ -172,7 +172,11 @@ double first_growth(const std::vector<double>& growth)
 
 }  // namespace
 
-double stability_limit(const Tableau& tableau, const Mode& mode)
+StabilityRegion::StabilityRegion(const Tableau& tableau) : polynomial_(stability_polynomial(tableau))
+{
+}
+
+double StabilityRegion::limit(const Mode& mode) const
 {
   const double w = mode.frequency;
   const double d = mode.air_damping + mode.spring_damping;
@@ -185,7 +189,7 @@ double stability_limit(const Tableau& tableau, const Mode& mode)
   const std::complex<double> eigenvalue =
       is_undamped ? std::complex<double>(0.0, w) : -0.5 * d - std::sqrt(std::complex<double>(0.25 * d * d - w * w));
   const double size = std::abs(eigenvalue);
-  return first_growth(growth_along(stability_polynomial(tableau), eigenvalue / size)) / size;
+  return first_growth(growth_along(polynomial_, eigenvalue / size)) / size;
 }
 
 }  // namespace cloth

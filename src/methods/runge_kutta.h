@@ -66,8 +66,18 @@ private:
   RungeKuttaStages stages_;
 };
 
-/// The largest stable step of a tableau's method for a mode, s. With mu an eigenvalue of the mode, a step multiplies
-/// its amplitude by |R(h mu)|, R(z) = 1 + sum_k z^k b A^(k-1) 1; the limit is where that first exceeds 1. 0: at once.
-double stability_limit(const Tableau& tableau, const Mode& mode);
+/// Where a tableau's method is stable. With mu an eigenvalue of a mode, a step multiplies its amplitude by |R(h mu)|,
+/// R(z) = 1 + sum_k z^k b A^(k-1) 1.
+class StabilityRegion
+{
+public:
+  explicit StabilityRegion(const Tableau& tableau);
+
+  /// The step where that first exceeds 1, s. 0: at once.
+  double limit(const Mode& mode) const;
+
+private:
+  std::vector<double> polynomial_;  ///< R's coefficients
+};
 
 }  // namespace cloth

@@ -202,11 +202,11 @@ namespace
 /// The least limit of modes of one frequency, however they are damped.
 double limit_at(const MethodRow& method, const Spectrum& spectrum, double frequency)
 {
-  constexpr int parts = 16;
   const double squared = frequency * frequency;
   const double most = std::min(spectrum.most_spring_damping, spectrum.damping_ratio * squared);
   const double undamped = spectrum.undamped_frequency * spectrum.undamped_frequency;
   const double least = std::min(most, spectrum.damping_ratio * std::max(0.0, squared - undamped));
+  const int parts = most > least ? 16 : 1;
   double limit = std::numeric_limits<double>::infinity();
   for (const double air : { spectrum.least_air_damping, spectrum.most_air_damping })
   {

@@ -10,6 +10,9 @@ namespace
 /// Of the tolerance: what a part may change the answer by, and all that is left out together.
 constexpr double share_of_a_part = 0.25;
 constexpr double share_of_all = 0.5;
+/// What a coarser grid says of a part is believed beyond these factors.
+constexpr double clearly_less = 0.25;
+constexpr double clearly_more = 2.0;
 /// What trials of parts may take, s of work.
 constexpr double most_seconds_with_scouts = 1.0;
 
@@ -59,16 +62,16 @@ public:
   }
 
 private:
-  /// Of the answer where `more` is left out instead of `parts`, m. Internal damping keeps down short waves, of which a
-  /// coarser grid has none.
+  /// Of the answer where `more` is left out instead of `parts`, m. The sheet itself tells what is near the share of a
+  /// part on a coarser grid, and whether damping may go: it keeps down short waves, of which a coarser grid has none.
   double change(const PartList& parts, const PartList& more)
   {
     const double on_trials = trials_.change(parts, more, probe_.on_trials, tolerance_);
     const bool lets_short_waves_grow = std::find(more.begin(), more.end(), internal_damping) != more.end();
-    const bool is_small = on_trials < share_of_all * tolerance_;
-    return lets_short_waves_grow && is_small ?
-               trials_.change_on_the_sheet(parts, more, probe_.on_scene, on_trials, tolerance_) :
-               on_trials;
+    const bool may_go = on_trials < clearly_more * share_of_a_part * tolerance_;
+    const bool is_clear = on_trials < clearly_less * share_of_a_part * tolerance_ && !lets_short_waves_grow;
+    return may_go && !is_clear ? trials_.change_on_the_sheet(parts, more, probe_.on_scene, on_trials, tolerance_) :
+                                 on_trials;
   }
 
   Trials& trials_;
