@@ -10,15 +10,13 @@ namespace
 
 constexpr std::uint64_t steps_between_looks = 64;
 constexpr std::uint64_t steps_between_spectra = 256;
-constexpr double longest_age = 0.2;            // s
-constexpr double longest_age_of_bounds = 0.4;  // s; of a limit that would follow from the bounds alone
 constexpr double allowed_change = 1.05;
 
-/// Whether any node's part in a bound has changed by what would change the limit, were it the largest.
-bool have_changed(const Eigen::VectorXd& before, const Eigen::VectorXd& now)
+/// What an eigenvalue may have become since: modes about a node are as fast as its part in the bound at most, and grow
+/// as that does where they were slower.
+double grown(double eigenvalue, const Eigen::VectorXd& before, const Eigen::VectorXd& now)
 {
-  return before.size() != now.size() ||
-         (now.size() > 0 && (now - before).cwiseAbs().maxCoeff() > (allowed_change - 1.0) * now.maxCoeff());
+  return eigenvalue * (now.array() / before.array().max(eigenvalue)).maxCoeff();
 }
 
 /// By so much that the limit is another.
@@ -45,33 +43,54 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
     return limit_;
   }
   looked_at_ = steps;
-  const SpectrumBounds bounds = spectrum_bounds(dynamics, state.positions);
-  const bool has_stiffened = is_above(bounds, bounds_);
-  const bool has_softened = is_above(bounds_, bounds);
-  const bool may_be_long = steps - worked_out_at_ >= steps_between_spectra;
-  const bool is_old = known_ && state.time - time_ >= (may_be_long ? longest_age : longest_age_of_bounds) &&
-                      (have_changed(bounds_.node_stiffness, bounds.node_stiffness) ||
-                       have_changed(bounds_.node_damping, bounds.node_damping));
-  const bool may_have_grown = is_of_bound_ ? has_softened || may_be_long : is_old;
-  if (known_ && !has_stiffened && (limit_ >= enough || !may_have_grown))
+  const SpectrumBounds bounds = likely(spectrum_bounds(dynamics, state.positions));
+  const bool is_other = !known_ || is_above(bounds, bounds_) || is_above(bounds_, bounds);
+  const bool may_be_long = !spectrum_ || steps - spectrum_at_ >= steps_between_spectra;
+  const bool is_short = !is_exact_ && may_be_long && limit_ < enough;
+  if (!is_other && !is_short)
   {
     return limit_;
   }
-  is_of_bound_ = known_ && !may_be_long;
-  if (is_of_bound_ || std::isfinite(enough))
-  {
-    limit_ = network_stability_limit(method, spectrum_of(dynamics, state.positions, bounds));
-    is_of_bound_ = is_of_bound_ || limit_ >= enough;
-  }
-  if (!is_of_bound_)
-  {
-    limit_ = network_stability_limit(method, spectrum_of(dynamics, state.positions));
-  }
   known_ = true;
   bounds_ = bounds;
-  time_ = state.time;
-  worked_out_at_ = steps;
+  limit_ = network_stability_limit(method, spectrum_of(dynamics, state.positions, bounds));
+  is_exact_ = false;
+  if (may_be_long && limit_ < enough)
+  {
+    take_spectrum(method, dynamics, state, steps);
+  }
   return limit_;
+}
+
+void StabilityWatch::take_spectrum(const MethodRow& method, const Dynamics& dynamics, const ClothState& state,
+                                   std::uint64_t steps)
+{
+  spectrum_ = spectrum_of(dynamics, state.positions);
+  spectrum_bounds_ = spectrum_bounds(dynamics, state.positions);
+  spectrum_at_ = steps;
+  bounds_ = likely(spectrum_bounds_);
+  limit_ = network_stability_limit(method, *spectrum_);
+  is_exact_ = true;
+}
+
+/// The bounds, made smaller by what the last spectrum says.
+SpectrumBounds StabilityWatch::likely(SpectrumBounds bounds) const
+{
+  if (!spectrum_ || spectrum_->frequency == 0.0)
+  {
+    return bounds;
+  }
+  const double squared = spectrum_->frequency * spectrum_->frequency;
+  const double stiffness =
+      std::min(bounds.stiffness, grown(squared, spectrum_bounds_.node_stiffness, bounds.node_stiffness));
+  const bool has_own_damping = bounds.node_damping.size() > 0 && spectrum_bounds_.node_damping.size() > 0 &&
+                               spectrum_->most_spring_damping > 0.0;
+  const double damping = has_own_damping ?
+                             grown(spectrum_->most_spring_damping, spectrum_bounds_.node_damping, bounds.node_damping) :
+                             bounds.damping * stiffness / bounds.stiffness;
+  bounds.damping = std::min(bounds.damping, damping);
+  bounds.stiffness = stiffness;
+  return bounds;
 }
 
 }  // namespace cloth
