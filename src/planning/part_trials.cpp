@@ -70,8 +70,7 @@ private:
     const bool lets_short_waves_grow = std::find(more.begin(), more.end(), internal_damping) != more.end();
     const bool may_go = on_trials < clearly_more * share_of_a_part * tolerance_;
     const bool is_clear = on_trials < clearly_less * share_of_a_part * tolerance_ && !lets_short_waves_grow;
-    return may_go && !is_clear ? trials_.change_on_the_sheet(parts, more, probe_.on_scene, on_trials, tolerance_) :
-                                 on_trials;
+    return may_go && !is_clear ? trials_.change_on_the_sheet(parts, more, probe_, on_trials, tolerance_) : on_trials;
   }
 
   Trials& trials_;

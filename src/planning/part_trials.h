@@ -22,13 +22,6 @@ struct LeftOut
   double change = 0.0;  ///< of the answer without all of them, m
 };
 
-/// The steps that parts are tried by.
-struct Probe
-{
-  Stepping on_trials;  ///< on the coarser grid
-  Stepping on_scene;   ///< on the sheet itself
-};
-
 /// What may be left out: what changes the answer by less than a quarter of the tolerance where all that changes it less
 /// is left out already, as long as it is less than a half together. Nothing, where `allows_any` is false. Adds to
 /// `tried` what was found of each part, those that change it least first.

@@ -35,9 +35,8 @@ constexpr double reference_share = 0.25;
 /// What comes nearest in real time is made longer only where it errs by hardly more, by this factor at most.
 constexpr double hardly_more = 1.05;
 
-/// How many samples are enough to compare a sheet's errors with those of a coarser one, unless they are larger than
+/// The first samples are enough to compare a sheet's errors with those of a coarser one, unless they are larger than
 /// this part of what they may be.
-constexpr int early_samples = 2;
 constexpr double critical_share = 0.1;
 
 /// How many steps are tried to come between this part of what is allowed and all of it; how errors may grow with the
@@ -278,23 +277,31 @@ Candidate StepSearch::checked(Candidate candidate)
   Stepping on_trials = candidate.stepping;
   on_scene.time_step = candidate.time_step;
   on_trials.time_step = candidate.time_step * candidate.stretch;
-  const bool was_exact_enough = candidate.error <= searched_.allowed;
-  const auto is_critical = [&](double factor) {
-    return was_exact_enough && candidate.error * factor > critical_share * searched_.allowed;
-  };
   Trials::Check check{ factor_.value_or(1.0), 0.0 };
   if (!factor_ || searched_.trials.seconds() < long_search)
   {
-    check =
-        is_critical(1.0) ? Trials::Check() : searched_.trials.check_on_the_sheet(on_scene, on_trials, early_samples);
-    check =
-        is_critical(check.factor) ? searched_.trials.check_on_the_sheet(on_scene, on_trials, Motion::samples) : check;
+    check = check_of(candidate, on_scene, on_trials);
     factor_ = check.factor;
   }
   const int order = order_of(candidate);
   const double gain = std::exp2(order);
   candidate.error = std::max(candidate.error * check.factor, check.difference * gain / (gain - 1.0));
   return candidate;
+}
+
+/// Over the whole second where the error may come near to what is allowed, as far as there is time for it.
+Trials::Check StepSearch::check_of(const Candidate& candidate, const Stepping& on_scene,
+                                   const Stepping& on_trials) const
+{
+  const auto check = [&](int samples) { return searched_.trials.check_on_the_sheet(on_scene, on_trials, samples); };
+  const auto is_critical = [&](double factor) {
+    return candidate.error <= searched_.allowed && candidate.error * factor > critical_share * searched_.allowed;
+  };
+  std::optional<Trials::Check> whole = is_critical(1.0) ? check(Motion::samples) : std::nullopt;
+  const std::optional<Trials::Check> early = whole ? whole : check(early_samples);
+  whole = !whole && early && is_critical(early->factor) ? check(Motion::samples) : whole;
+  const Trials::Check untried{ untried_allowance, 0.0 };
+  return whole ? *whole : early.value_or(untried);
 }
 
 /// Of what was exact enough until it was checked.

@@ -34,9 +34,10 @@ constexpr double most_of_scout_by_tolerance = 50.0;
 /// find out takes too long.
 constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_allowance = 30.0;
-constexpr double untried_allowance = 3.0;
-constexpr double most_seconds_on_the_sheet = 2.0;
+constexpr double most_seconds_on_the_sheet = 1.2;
 constexpr double most_seconds_of_the_scout = 0.3;
+constexpr double most_seconds_of_a_change = 0.3;
+constexpr double most_seconds_of_changes = 0.7;
 
 /// What passes of the strain limit that are too few for a step may leave of a strain, relative to the limit, whatever
 /// the scout's steps leave, and how many times what those leave, in which luck has a part.
@@ -161,15 +162,15 @@ double Trials::coarseness() const
   return std::max(ratio(fine.rows - 1, coarse.rows - 1), ratio(fine.cols - 1, coarse.cols - 1));
 }
 
-Trials::Check Trials::check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples)
+std::optional<Trials::Check> Trials::check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples)
 {
   if (!is_coarser())
   {
-    return {};
+    return Check();
   }
   if (takes_too_long(stepping, 3.0 * samples / Motion::samples))
   {
-    return { untried_allowance, 0.0 };
+    return std::nullopt;
   }
   const auto halved = [](Stepping steps) {
     steps.time_step *= 0.5;
@@ -184,8 +185,8 @@ Trials::Check Trials::check_on_the_sheet(const Stepping& stepping, const Steppin
   const bool is_early = samples < Motion::samples;
   const double least =
       is_early && find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
-  return { std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance,
-           !is_early && std::isfinite(difference) ? difference : 0.0 };
+  return Check{ std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance,
+                !is_early && std::isfinite(difference) ? difference : 0.0 };
 }
 
 double Trials::error_on_the_sheet(const Stepping& stepping)
@@ -213,18 +214,30 @@ double Trials::change(const PartList& parts, const PartList& more, const Steppin
   return change_between(parts, more, stepping, enough, pilot_, motions_);
 }
 
-double Trials::change_on_the_sheet(const PartList& parts, const PartList& more, const Stepping& stepping,
-                                   double on_trials, double enough)
+double Trials::change_on_the_sheet(const PartList& parts, const PartList& more, const Probe& probe, double on_trials,
+                                   double enough)
 {
   if (!is_coarser())
   {
     return on_trials;
   }
-  if (takes_too_long(stepping, 2.0))
+  const double seconds = 2.0 * Motion::horizon / probe.on_scene.time_step * evaluation_;
+  if (seconds < most_seconds_of_a_change)
+  {
+    return change_between(parts, more, probe.on_scene, enough, scene_, motions_of_the_sheet_);
+  }
+  if (seconds_ + seconds * early_samples / Motion::samples > most_seconds_of_changes)
   {
     return untried_allowance * on_trials;
   }
-  return change_between(parts, more, stepping, enough, scene_, motions_of_the_sheet_);
+  const auto early_change = [&](const StartedScene& scene, const Stepping& stepping, Motions& motions) {
+    return distance(known_or_run(scene, parts, stepping, early_samples, motions),
+                    known_or_run(scene, more, stepping, early_samples, motions), early_samples);
+  };
+  const double factor =
+      early_change(scene_, probe.on_scene, motions_of_the_sheet_) / early_change(pilot_, probe.on_trials, motions_);
+  return on_trials *
+         (std::isfinite(factor) ? std::clamp(factor, 1.0 / most_allowance, most_allowance) : most_allowance);
 }
 
 double Trials::change_between(const PartList& parts, const PartList& more, const Stepping& stepping, double enough,

@@ -16,6 +16,18 @@
 namespace cloth
 {
 
+/// How many samples are enough to compare a sheet with a coarser one.
+constexpr int early_samples = 2;
+/// What is taken for a sheet's factor where to find out takes too long.
+constexpr double untried_allowance = 3.0;
+
+/// The steps that parts are tried by.
+struct Probe
+{
+  Stepping on_trials;  ///< on the coarser grid
+  Stepping on_scene;   ///< on the sheet itself
+};
+
 /// All trial runs of a scene, on a coarser grid where that is cheaper.
 class Trials
 {
@@ -76,8 +88,9 @@ public:
     double difference = 0.0;  ///< m; from half of the steps over the whole second; 0: that was not run
   };
 
-  /// `stepping` on the sheet against `on_trial` on the coarser grid, over the first so many samples.
-  Check check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples);
+  /// `stepping` on the sheet against `on_trial` on the coarser grid, over the first so many samples. None: that takes
+  /// too long.
+  std::optional<Check> check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples);
 
   /// How far steps are from the scout's longest on the sheet itself over the whole second, m; infinite where either of
   /// them diverges.
@@ -95,8 +108,9 @@ public:
   double change(const PartList& parts, const PartList& more, const Stepping& stepping, double enough);
 
   /// The same on the sheet itself, which has shorter waves to be changed by it, where it was `on_trials` on the coarser
-  /// grid.
-  double change_on_the_sheet(const PartList& parts, const PartList& more, const Stepping& stepping, double on_trials,
+  /// grid. Where that takes long it follows from how the two compare over the first quarter of a second, and where it
+  /// takes too long, some allowance is made.
+  double change_on_the_sheet(const PartList& parts, const PartList& more, const Probe& probe, double on_trials,
                              double enough);
 
   /// The scout's longest steps.
