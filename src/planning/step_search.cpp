@@ -21,8 +21,9 @@ constexpr double real_time_share = 0.75;
 constexpr double expected_run = 10.0;
 /// What trials may take while nothing is found, in parts of such a run by the scout, or at what real time allows.
 constexpr double most_trials = 0.2;
-/// And then by the scout alone, s.
+/// And then by the scout alone, s, and until something comes near in real time.
 constexpr double most_seconds = 3.0;
+constexpr double most_seconds_of_an_approach = 2.0;
 /// Once trials have taken so long, s, one more has to promise to save so many times what it takes.
 constexpr double quick_search = 0.5;
 constexpr double saving_of_late_trials = 4.0;
@@ -413,9 +414,11 @@ std::optional<Candidate> StepSearch::nearest_in_real_time()
 }
 
 /// Long steps may all err alike, and differ little from each other: against the most exact motion that is known,
-/// however far it parts from itself, they do. Steps are tried until the last one is not affordable.
+/// however far it parts from itself, they do. Steps are tried until the last one is not affordable, or of such a motion
+/// as long as they are.
 void StepSearch::approach_in_real_time() const
 {
+  const double most_cost = parts_from_itself() ? real_time_share : 2.0 * real_time_share;
   for (const std::unique_ptr<MethodSearch>& search : searches_)
   {
     const MethodErrors::Reference reference = most_exact_but(*search);
@@ -424,8 +427,8 @@ void StepSearch::approach_in_real_time() const
       continue;
     }
     search->hold_against(reference);
-    while (!search->is_over() && search->next_cost() < 2.0 * real_time_share &&
-           searched_.trials.seconds() + search->trial_cost() < most_seconds)
+    while (!search->is_over() && search->next_cost() <= most_cost &&
+           searched_.trials.seconds() + search->trial_cost() < most_seconds_of_an_approach)
     {
       search->try_next(reference);
     }
