@@ -47,6 +47,8 @@ constexpr double fit = 0.85;
 constexpr double least_slope = 0.4;
 constexpr double most_slope = 3.0;
 constexpr double most_change = 4.0;
+/// By what factor the sheet itself may allow longer steps.
+constexpr double most_lengthening = 10.0;
 
 /// A motion that errs by more than this part of how far the nodes move is of no use, and one that is slower than real
 /// time is better where it errs by so many times less.
@@ -111,7 +113,7 @@ void StepSearch::find_more()
     search->try_next(search == scout_ ? MethodErrors::Reference{} : reference_for(*search));
     if (const std::optional<Candidate> candidate = search->found())
     {
-      found_.push_back(*candidate);
+      found_.push_back(may_be_fitted(*candidate) ? fitted_on_the_sheet(*candidate).value_or(*candidate) : *candidate);
       std::stable_sort(found_.begin(), found_.end(), is_cheaper);
     }
     // Where errors of first order do not fall, those of second order still may.
@@ -221,12 +223,19 @@ void StepSearch::check_cheapest()
   std::stable_sort(found_.begin(), found_.end(), is_cheaper);
 }
 
-/// What passes that work locally leave undone on a coarser grid says little of the sheet itself. Where the scout's run
-/// there is not too dear their steps are fitted to err by what is allowed, as the line through the last two errors has
-/// it. None: they do not come to it.
+/// What passes that work locally leave undone on a coarser grid says little of the sheet itself.
+bool StepSearch::may_be_fitted(const Candidate& candidate) const
+{
+  return candidate.row->iterates_locally && searched_.trials.can_afford_the_scout_on_the_sheet() &&
+         (found_.empty() || candidate.cost < most_lengthening * found_.front().cost);
+}
+
+/// With steps that err there by what is allowed, as the line through the last two errors has it. None: they do not come
+/// to it.
 std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) const
 {
   std::optional<Candidate> best;
+  candidate.is_checked = true;
   double error_before = 0.0;
   double step_before = 0.0;
   for (int run = 0; run < most_fits; ++run)
@@ -268,12 +277,6 @@ Candidate StepSearch::checked(Candidate candidate)
   {
     return candidate;
   }
-  const bool may_be_fitted = candidate.row->iterates_locally && candidate.error <= searched_.allowed &&
-                             searched_.trials.can_afford_the_scout_on_the_sheet();
-  if (const std::optional<Candidate> fitted = may_be_fitted ? fitted_on_the_sheet(candidate) : std::nullopt)
-  {
-    return *fitted;
-  }
   Stepping on_scene = candidate.stepping;
   Stepping on_trials = candidate.stepping;
   on_scene.time_step = candidate.time_step;
@@ -290,7 +293,8 @@ Candidate StepSearch::checked(Candidate candidate)
   return candidate;
 }
 
-/// Over the whole second where the error may come near to what is allowed, as far as there is time for it.
+/// Over the whole second where that is cheap, or where the error may come near to what is allowed and there is time for
+/// it: what differs on the sheet itself may come late.
 Trials::Check StepSearch::check_of(const Candidate& candidate, const Stepping& on_scene,
                                    const Stepping& on_trials) const
 {
@@ -298,7 +302,8 @@ Trials::Check StepSearch::check_of(const Candidate& candidate, const Stepping& o
   const auto is_critical = [&](double factor) {
     return candidate.error <= searched_.allowed && candidate.error * factor > critical_share * searched_.allowed;
   };
-  std::optional<Trials::Check> whole = is_critical(1.0) ? check(Motion::samples) : std::nullopt;
+  const bool tells_all = is_critical(1.0) || searched_.trials.can_afford_a_whole_check(on_scene);
+  std::optional<Trials::Check> whole = tells_all ? check(Motion::samples) : std::nullopt;
   const std::optional<Trials::Check> early = whole ? whole : check(early_samples);
   whole = !whole && early && is_critical(early->factor) ? check(Motion::samples) : whole;
   const Trials::Check untried{ untried_allowance, 0.0 };

@@ -42,6 +42,7 @@ private:
   Candidate checked(Candidate candidate);
   Trials::Check check_of(const Candidate& candidate, const Stepping& on_scene, const Stepping& on_trials) const;
   Candidate made_exact_enough(Candidate candidate) const;
+  bool may_be_fitted(const Candidate& candidate) const;
   std::optional<Candidate> fitted_on_the_sheet(Candidate candidate) const;
   int order_of(const Candidate& candidate) const;
   void choose();

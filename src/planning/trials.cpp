@@ -35,6 +35,8 @@ constexpr double most_of_scout_by_tolerance = 50.0;
 constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_allowance = 30.0;
 constexpr double most_seconds_on_the_sheet = 1.2;
+constexpr double most_seconds_of_a_cheap_check = 0.4;
+constexpr double runs_of_a_check = 3.0;  // a run, and one by half of the steps
 constexpr double most_seconds_of_the_scout = 0.3;
 constexpr double most_seconds_of_a_change = 0.3;
 constexpr double most_seconds_of_changes = 0.7;
@@ -168,7 +170,7 @@ std::optional<Trials::Check> Trials::check_on_the_sheet(const Stepping& stepping
   {
     return Check();
   }
-  if (takes_too_long(stepping, 3.0 * samples / Motion::samples))
+  if (takes_too_long(stepping, runs_of_a_check * samples / Motion::samples))
   {
     return std::nullopt;
   }
@@ -187,6 +189,11 @@ std::optional<Trials::Check> Trials::check_on_the_sheet(const Stepping& stepping
       is_early && find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
   return Check{ std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance,
                 !is_early && std::isfinite(difference) ? difference : 0.0 };
+}
+
+bool Trials::can_afford_a_whole_check(const Stepping& stepping) const
+{
+  return runs_of_a_check * Motion::horizon / stepping.time_step * evaluation_ < most_seconds_of_a_cheap_check;
 }
 
 double Trials::error_on_the_sheet(const Stepping& stepping)

@@ -92,6 +92,9 @@ public:
   /// too long.
   std::optional<Check> check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples);
 
+  /// Whether that over the whole second is cheap.
+  bool can_afford_a_whole_check(const Stepping& stepping) const;
+
   /// How far steps are from the scout's longest on the sheet itself over the whole second, m; infinite where either of
   /// them diverges.
   double error_on_the_sheet(const Stepping& stepping);
