@@ -50,6 +50,10 @@ Motion motion_at(const StartedScene& coarse, const StartedScene& scene, const St
 Vectors rest_at(const StartedScene& coarse, const StartedScene& scene, const Stepping& stepping)
 {
   const Simulation simulation = simulation_of(scene, stepping);
+  if (simulation.model().springs.empty())
+  {
+    return Vectors(0, 3);
+  }
   Vectors positions = simulation.state().positions;
   const StaticsReport report = settle(simulation.model(), simulation.pins(), scene.params.gravity,
                                       scene.params.strain_limit.max_strain, rest_tolerance, positions);

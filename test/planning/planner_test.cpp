@@ -265,6 +265,20 @@ TEST(GridReport, NamesAGridThatWouldDo)
   EXPECT_TRUE(has(report, { "5 x 5 nodes would do", " s of work a second instead of 1 s" })) << report;
 }
 
+TEST(GridReport, FindsNoRestWithoutSprings)
+{
+  StepCosts costs("");
+  const StartedScene loose = started(
+      "{cloth: {rows: 17, cols: 17}, springs: {structural: {stiffness: 0, damping: 0}, shear: {stiffness: 0, damping: "
+      "0}, "
+      "flex: {stiffness: 0, damping: 0}}, strain_limit: {max_strain: 0}}");
+  Choice choice;
+  choice.method = "velocity_verlet";
+  choice.cost = 1.0;
+  const std::string report = grid_report(loose, choice, costs);
+  EXPECT_TRUE(has(report, { "m in motion and no rest to compare" })) << report;
+}
+
 TEST(GridReport, SaysThatThereIsNone)
 {
   StepCosts costs("");
