@@ -70,7 +70,8 @@ TEST_F(HealthTest, AGoodClothIsReportedWithItsFigures)
   ASSERT_TRUE(wait_for_level("cloth", DiagnosticStatus::OK));
   const DiagnosticStatus* const cloth = find(diagnostics_.last(), "cloth");
   EXPECT_EQ(value_in(*cloth, "strain limit"), "0.2");
-  EXPECT_EQ(value_in(*cloth, "method"), "velocity_verlet");
+  EXPECT_FALSE(value_in(*cloth, "method").empty());
+  EXPECT_NE(value_in(*cloth, "method"), "auto");
   EXPECT_GT(std::stod(value_in(*cloth, "stability margin")), 1.0 / 0.9 - 0.05);
   EXPECT_LT(std::stod(value_in(*cloth, "stability margin")), 1.5) << "steps follow from a bound now and then";
   ASSERT_NE(find(diagnostics_.last(), "ticks"), nullptr);

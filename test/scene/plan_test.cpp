@@ -140,12 +140,15 @@ TEST(Plan, SaysWhetherStepsAreCheckedWhileTheyRun)
   EXPECT_EQ(line_of("error watch", "solver: {method: rk4}"), "error watch: left out, solver.method is rk4, not auto");
 }
 
+/// A heavy sheet stretches soon, and a look later the limit is known no better than the bounds say.
 TEST(Plan, SaysWhereTheStepFollowsFromABound)
 {
-  const Plan plan = make_plan(scene_of("{cloth: {rows: 8, cols: 8, ripple: 0.01}, solver: {method: velocity_verlet}}"));
+  const Plan plan =
+      make_plan(scene_of("{cloth: {rows: 12, cols: 12, mass: 4}, strain_limit: {max_strain: 0}, solver: "
+                         "{method: velocity_verlet}}"));
   Simulation simulation = build_simulation(plan);
   EXPECT_TRUE(has(describe(plan, simulation).back(), { " s, 0.9 of the stability limit of velocity_verlet" }));
-  ASSERT_TRUE(simulation.advance_to(1.0));
+  ASSERT_TRUE(simulation.advance_to(0.8));
   const std::string line = describe(plan, simulation).back();
   EXPECT_TRUE(has(line, { " s, from a bound within 0.9 of the stability limit of velocity_verlet" })) << line;
 }
