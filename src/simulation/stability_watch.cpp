@@ -1,7 +1,6 @@
 #include "cloth_sim/simulation/stability_watch.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace cloth
 {
