@@ -23,12 +23,14 @@ struct LeftOut
 };
 
 /// What may be left out: what changes the answer by less than a quarter of the tolerance where all that changes it less
-/// is left out already, as long as it is less than a half together. Nothing, where `allows_any` is false. Adds to
-/// `tried` what was found of each part, those that change it least first.
+/// is left out already, as long as it is less than a half together. Nothing, where `allows_any` is false. `tried`
+/// becomes what was found of each part, those that change it least first.
 LeftOut parts_to_leave_out(Trials& trials, const Probe& probe, bool allows_any, std::vector<TriedPart>& tried);
 
-/// The scout's longest steps, where there is time for as many of its runs as parts may take.
+/// Whether there is time for as many runs of the scout as parts may take.
 bool can_afford_scouts(const Trials& trials);
+
+/// The scout's longest steps.
 Probe scouts(const Trials& trials);
 
 }  // namespace cloth

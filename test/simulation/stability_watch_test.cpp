@@ -114,17 +114,6 @@ TEST(StabilityWatchOfADampedChain, SeesThatItHasUnfolded)
   EXPECT_LT(unfolded, 0.6 * folded);
 }
 
-TEST_F(StabilityWatchTest, IsWorkedOutAnewWhenItIsOld)
-{
-  Noise noise;
-  const Vectors flat = state_.positions;
-  state_.positions += 0.03 * noise.vectors(dynamics_.model().nodes());
-  limit_after(0);
-  state_.positions = flat;
-  state_.time = 0.41;
-  EXPECT_LE(limit_after(64), exact_limit());
-}
-
 /// What is stiff or damped stays so however the sheet is turned.
 TEST_F(StabilityWatchTest, StaysWhileTheSheetTurnsAsAWhole)
 {
