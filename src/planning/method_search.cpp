@@ -53,7 +53,7 @@ public:
     }
     const double error = errors_->error_of_finest();
     const double steepest = row_.iterates_locally ? row_.order + order_of_lost_damping : row_.order;
-    const double falls_best = std::isfinite(error) ? std::pow(searched_.allowed / error, 1.0 / steepest) : 0.5;
+    const double falls_best = std::isfinite(error) ? std::pow(allowed() / error, 1.0 / steepest) : 0.5;
     return cost_of(std::min(longest_, errors_->finest_step() / stretch() * std::min(1.0, falls_best)));
   }
 
@@ -127,6 +127,12 @@ public:
                                             MethodErrors::Reference{};
   }
 
+  double error_of_longest() const override
+  {
+    return errors_ && errors_->is_known() ? errors_->error_of(longest_on_trials_) :
+                                            std::numeric_limits<double>::infinity();
+  }
+
   bool knows_its_floor() const override
   {
     return runs_ >= enough_runs || (runs_ > 2 && (errors_->falls() || errors_->is_at_its_floor()));
@@ -145,6 +151,11 @@ private:
     longest_ = is_given_ ? given : longest_;
     const double of_trials = is_limited_ ? Simulation::limit_share * limit_of_trials : longest_trial_step;
     longest_on_trials_ = std::min(is_given_ ? longest_ * stretch() : of_trials, of_trials);
+  }
+
+  double allowed() const
+  {
+    return searched_.allowed_with(errors_->reference());
   }
 
   /// How much longer a step on the coarser grid does the same.
@@ -187,19 +198,19 @@ private:
     {
       return;
     }
-    const bool is_seen = errors_->has_reference() && errors_->error_of_finest() <= searched_.allowed;
+    const bool is_seen = errors_->has_reference() && errors_->error_of_finest() <= allowed();
     if (!is_limited_ && !is_seen && !errors_->falls())
     {
       return;
     }
     const double finest = errors_->finest_step() / stretch();
-    const double step = std::min(longest_, errors_->step_for(searched_.allowed) / stretch());
+    const double step = std::min(longest_, errors_->step_for(allowed()) / stretch());
     const bool is_stability = step == longest_;
     const bool may_be_longer = !is_stability && !errors_->has_two() && row_.order > 1 && trial_cost() < cheap_trial;
     if ((step >= least_of_finest * finest && !may_be_longer) || is_stability)
     {
       found_ = candidate_of(step);
-      found_->error = std::min(found_->error, searched_.allowed);  // but for rounding it is
+      found_->error = std::min(found_->error, allowed());  // but for rounding it is
     }
   }
 
@@ -245,7 +256,7 @@ public:
     , searched_(searched)
     , longest_(likely_limit(row, searched.trials.spectrum_of_the_sheet()))
     , shrinkage_(std::max(1.0, searched.trials.likely_limit(row) / longest_))
-    , tolerance_(first_tolerance * searched.allowed)
+    , tolerance_(first_tolerance * searched.allowed.estimated)
   {
   }
 
@@ -276,7 +287,7 @@ public:
     error_ = reference.motion != nullptr ? std::hypot(distance(motion, *reference.motion), reference.error) :
              tried_.size() > 1 ? distance(motion, searched_.trials.motion(stepping_of(tried_[tried_.size() - 2]))) :
                                  std::numeric_limits<double>::infinity();
-    if (error_ <= searched_.allowed)
+    if (error_ <= searched_.allowed_with(reference))
     {
       found_ = candidate();
     }
@@ -307,6 +318,11 @@ public:
   MethodErrors::Reference reference() const override
   {
     return {};
+  }
+
+  double error_of_longest() const override
+  {
+    return std::numeric_limits<double>::infinity();
   }
 
 private:
@@ -353,6 +369,10 @@ private:
 std::unique_ptr<MethodSearch> search_of(const MethodRow& row, const SearchedScene& searched)
 {
   if (!(likely_limit(row, searched.trials.spectrum_of_the_sheet()) >= Simulation::shortest_step))
+  {
+    return nullptr;
+  }
+  if (row.linear_solves > 0 && !row.iterates_locally && !searched.trials.can_afford_a_first_solve())
   {
     return nullptr;
   }

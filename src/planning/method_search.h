@@ -30,13 +30,25 @@ struct Candidate
   bool is_checked = false;  ///< on the sheet itself
 };
 
+/// What steps may err by, m.
+struct Allowance
+{
+  double estimated;  ///< where that follows from how runs differ, or from a coarser grid
+  double measured;   ///< where it is how far they are from a more exact motion of the sheet itself, all along
+};
+
 /// What all searches of a scene share.
 struct SearchedScene
 {
   const StartedScene& scene;
-  double allowed;  ///< m; what a candidate may err by
+  Allowance allowed;
   Trials& trials;
   StepCosts& costs;
+
+  double allowed_with(const MethodErrors::Reference& reference) const
+  {
+    return reference.motion != nullptr && !trials.is_coarser() ? allowed.measured : allowed.estimated;
+  }
 };
 
 /// Looks for the cheapest steps of one method that are exact enough, a trial at a time and the cheapest trials first.
@@ -73,6 +85,9 @@ public:
   /// Its most exact run so far.
   virtual MethodErrors::Reference reference() const = 0;
 
+  /// What its longest steps err by, m; infinite: that is not known.
+  virtual double error_of_longest() const = 0;
+
   /// Whether it is known how errors fall when steps are halved, and whether they do: where not, the motion parts from
   /// itself, or all steps so far are far too long, which a reference tells.
   virtual bool knows_its_floor() const
@@ -85,7 +100,7 @@ public:
   }
 };
 
-/// None: no step of the method is stable.
+/// None: no step of the method is stable, or even the first would take too long to find out.
 std::unique_ptr<MethodSearch> search_of(const MethodRow& row, const SearchedScene& searched);
 
 }  // namespace cloth

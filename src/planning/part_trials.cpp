@@ -26,12 +26,13 @@ public:
 
   std::vector<TriedPart> tried_alone()
   {
+    const double enough_alone = (trials_.is_coarser() ? clearly_more : 1.0) * share_of_a_part * tolerance_;
     std::vector<TriedPart> tried;
     for (const ModelPart& part : optional_parts())
     {
       if (part.is_there(trials_.scene().params))
       {
-        tried.push_back({ part.name, change({}, { part.name }) });
+        tried.push_back({ part.name, change({}, { part.name }, enough_alone) });
       }
     }
     std::stable_sort(tried.begin(), tried.end(),
@@ -51,8 +52,9 @@ public:
       const bool is_first = left_out.parts.empty();
       PartList parts = left_out.parts;
       parts.push_back(part.part);
-      const double together = is_first ? part.change : change({}, parts);
-      part.change = is_first ? part.change : change(left_out.parts, parts);
+      const double enough = share_of_all * tolerance_;
+      const double together = is_first ? part.change : change({}, parts, enough);
+      part.change = is_first ? part.change : change(left_out.parts, parts, enough);
       if (part.change < share_of_a_part * tolerance_ && together < share_of_all * tolerance_)
       {
         left_out = { parts, together };
@@ -62,15 +64,16 @@ public:
   }
 
 private:
-  /// Of the answer where `more` is left out instead of `parts`, m. The sheet itself tells what is near the share of a
+  /// Of the answer where `more` is left out instead of `parts`, m; or at least, where that is more than `enough` (m). The
+  /// sheet itself tells what is near the share of a
   /// part on a coarser grid, and whether damping may go: it keeps down short waves, of which a coarser grid has none.
-  double change(const PartList& parts, const PartList& more)
+  double change(const PartList& parts, const PartList& more, double enough)
   {
-    const double on_trials = trials_.change(parts, more, probe_.on_trials, tolerance_);
+    const double on_trials = trials_.change(parts, more, probe_.on_trials, enough);
     const bool lets_short_waves_grow = std::find(more.begin(), more.end(), internal_damping) != more.end();
     const bool may_go = on_trials < clearly_more * share_of_a_part * tolerance_;
     const bool is_clear = on_trials < clearly_less * share_of_a_part * tolerance_ && !lets_short_waves_grow;
-    return may_go && !is_clear ? trials_.change_on_the_sheet(parts, more, probe_, on_trials, tolerance_) : on_trials;
+    return may_go && !is_clear ? trials_.change_on_the_sheet(parts, more, probe_, on_trials, enough) : on_trials;
   }
 
   Trials& trials_;

@@ -13,7 +13,7 @@ namespace cloth
 struct TriedPart
 {
   std::string part;
-  double change;  ///< of the answer without it, m; at least, where that is more than the tolerance
+  double change;  ///< of the answer without it, m; at least, where a part of it is enough to keep the part
 };
 
 struct LeftOut

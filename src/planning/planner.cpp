@@ -1,5 +1,6 @@
 #include "planner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -14,8 +15,10 @@ namespace cloth
 namespace
 {
 
-/// Of the tolerance: what method and step may err by.
-constexpr double step_share = 0.5;
+/// Of the tolerance: what method and step may err by, where their errors are estimated and where they are measured;
+/// these with what the model errs by for want of what is left out are not above it.
+constexpr double estimated_share = 0.5;
+constexpr double measured_share = 0.8;
 
 /// What is left out, and the cheapest steps without it. None: no method has a stable step.
 struct Found
@@ -28,7 +31,8 @@ struct Found
 Found search_steps(const StartedScene& scene, Trials& trials, StepCosts& costs, const LeftOut& left_out)
 {
   const double tolerance = scene.params.solver.tolerance;
-  StepSearch search(scene, trials, step_share * tolerance, costs);
+  const double measured = std::min(measured_share * tolerance, tolerance - left_out.change);
+  StepSearch search(scene, trials, { estimated_share * tolerance, measured }, costs);
   search.run();
   return { left_out, search.best(), search.best() ? search.reason(tolerance) : "" };
 }

@@ -81,18 +81,19 @@ std::string in_two_digits(double number)
   return text;
 }
 
-StepSearch::StepSearch(const StartedScene& scene, Trials& trials, double allowed, StepCosts& costs)
+StepSearch::StepSearch(const StartedScene& scene, Trials& trials, const Allowance& allowed, StepCosts& costs)
   : searched_{ scene, allowed, trials, costs }
 {
   for (const MethodRow& row : methods())
   {
     if (std::unique_ptr<MethodSearch> search = search_of(row, searched_))
     {
-      scout_ = &row == &trials.scout() ? search.get() : scout_;
+      scout_of_trials_ = &row == &trials.scout() ? search.get() : scout_of_trials_;
       scout_of_second_order_ = &row == &Trials::scout_of_second_order() ? search.get() : scout_of_second_order_;
       searches_.push_back(std::move(search));
     }
   }
+  scout_ = scout_of_trials_;
 }
 
 void StepSearch::run()
@@ -113,7 +114,9 @@ void StepSearch::find_more()
     search->try_next(search == scout_ ? MethodErrors::Reference{} : reference_for(*search));
     if (const std::optional<Candidate> candidate = search->found())
     {
-      found_.push_back(may_be_fitted(*candidate) ? fitted_on_the_sheet(*candidate).value_or(*candidate) : *candidate);
+      found_.push_back(is_fitted_at_once(*candidate) ? fitted_on_the_sheet(*candidate).value_or(*candidate) :
+                                                       *candidate);
+      found_.back().is_checked = found_.back().is_checked || !searched_.trials.is_coarser();
       std::stable_sort(found_.begin(), found_.end(), is_cheaper);
     }
     // Where errors of first order do not fall, those of second order still may.
@@ -186,7 +189,7 @@ MethodErrors::Reference StepSearch::most_exact_but(const MethodSearch& asking) c
 MethodErrors::Reference StepSearch::reference_for(const MethodSearch& asking) const
 {
   const MethodErrors::Reference best = most_exact_but(asking);
-  return best.error < reference_share * searched_.allowed ? best : MethodErrors::Reference{};
+  return best.error < reference_share * searched_.allowed.estimated ? best : MethodErrors::Reference{};
 }
 
 bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
@@ -202,12 +205,17 @@ bool StepSearch::is_worth_a_trial(const MethodSearch& search) const
     return true;
   }
   const double best = found_.front().cost;
-  const double seconds = searched_.trials.seconds() + search.trial_cost();
-  const double times = seconds < quick_search ? 1.0 :
-                       seconds < long_search  ? saving_of_late_trials :
-                                                saving_of_last_trials;
-  const double most_cost = expected_run * (best - search.least_cost()) / times;
-  return search.least_cost() < level * best && search.trial_cost() < most_cost;
+  return search.least_cost() < level * best && is_worth(search.trial_cost(), best - search.least_cost());
+}
+
+/// Whether to find out for so many seconds pays where it may save so much for each simulated second.
+bool StepSearch::is_worth(double seconds, double saved_cost) const
+{
+  const double together = searched_.trials.seconds() + seconds;
+  const double times = together < quick_search ? 1.0 :
+                       together < long_search  ? saving_of_late_trials :
+                                                 saving_of_last_trials;
+  return seconds < expected_run * saved_cost / times;
 }
 
 /// What takes longer than real time allows is checked only where nothing else is of use.
@@ -216,40 +224,63 @@ bool StepSearch::is_cheapest_checked() const
   return found_.empty() || found_.front().is_checked || found_.front().cost > real_time_share;
 }
 
-/// What is the cheapest may be another then, or one that is worth a trial only now.
+/// What is the cheapest may be another then, or one that is worth a trial only now. A check that takes more than it may
+/// save is left out, and so is what it was about.
 void StepSearch::check_cheapest()
 {
-  found_.front() = made_exact_enough(checked(found_.front()));
+  const auto next_checked =
+      std::find_if(found_.begin(), found_.end(), [](const Candidate& other) { return other.is_checked; });
+  const double cost = found_.front().cost;
+  if (next_checked != found_.end() && !is_worth((1.0 + shorter_in_a_check) * cost, next_checked->cost - cost))
+  {
+    found_.erase(found_.begin());
+    return;
+  }
+  const Candidate candidate = found_.front();
+  const std::optional<Candidate> fitted =
+      may_be_fitted(candidate) ? fitted_on_the_sheet(candidate) : std::optional<Candidate>();
+  found_.front() = fitted ? *fitted : made_exact_enough(checked(candidate));
   std::stable_sort(found_.begin(), found_.end(), is_cheaper);
 }
 
 /// What passes that work locally leave undone on a coarser grid says little of the sheet itself.
+bool StepSearch::is_fitted_at_once(const Candidate& candidate) const
+{
+  return candidate.row->iterates_locally && may_be_fitted(candidate) &&
+         (found_.empty() || candidate.cost < most_lengthening * found_.front().cost);
+}
+
+/// The scout's longest steps are exact enough to hold others against, and cheap.
 bool StepSearch::may_be_fitted(const Candidate& candidate) const
 {
-  return candidate.row->iterates_locally && searched_.trials.can_afford_the_scout_on_the_sheet() &&
-         (found_.empty() || candidate.cost < most_lengthening * found_.front().cost);
+  return !candidate.row->is_adaptive && candidate.row != &searched_.trials.scout() &&
+         searched_.trials.can_afford_the_scout_on_the_sheet() &&
+         scout_of_trials_->error_of_longest() < reference_share * searched_.allowed.measured;
 }
 
 /// With steps that err there by what is allowed, as the line through the last two errors has it. None: they do not come
 /// to it.
 std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) const
 {
+  const double allowed = searched_.allowed.measured;
+  const bool as_limited = candidate.stepping.time_step == 0.0;
   std::optional<Candidate> best;
   candidate.is_checked = true;
   double error_before = 0.0;
   double step_before = 0.0;
-  for (int run = 0; run < most_fits; ++run)
+  for (int run = 0; run < most_fits && !(best && searched_.trials.seconds() > long_search); ++run)
   {
+    const bool is_longest = candidate.time_step >= candidate.longest_of_all;
     candidate.stepping.time_step = candidate.time_step;
-    candidate.error = searched_.trials.error_on_the_sheet(candidate.stepping);
-    const bool is_exact_enough = candidate.error <= searched_.allowed;
+    candidate.error =
+        std::hypot(searched_.trials.error_on_the_sheet(candidate.stepping), scout_of_trials_->error_of_longest());
+    candidate.stepping.time_step = as_limited && is_longest ? 0.0 : candidate.time_step;
+    const bool is_exact_enough = candidate.error <= allowed;
     if (is_exact_enough && (!best || candidate.time_step > best->time_step))
     {
       best = candidate;
     }
-    const bool is_longest = candidate.time_step >= candidate.longest_of_all;
-    if (!std::isfinite(candidate.error) ||
-        (is_exact_enough && (is_longest || candidate.error > fit * searched_.allowed)))
+    if (!std::isfinite(candidate.error) || (is_exact_enough && (is_longest || candidate.error > fit * allowed)))
     {
       break;
     }
@@ -258,7 +289,7 @@ std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) co
                              std::log(candidate.error / error_before) / std::log(candidate.time_step / step_before);
     error_before = candidate.error;
     step_before = candidate.time_step;
-    const double aim = 0.5 * (1.0 + fit) * searched_.allowed;
+    const double aim = 0.5 * (1.0 + fit) * allowed;
     const double factor = std::pow(aim / candidate.error, 1.0 / std::clamp(slope, least_slope, most_slope));
     const double step =
         std::min(candidate.time_step * std::clamp(factor, 1.0 / most_change, most_change), candidate.longest_of_all);
@@ -268,58 +299,92 @@ std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) co
   return best;
 }
 
-/// A sheet has more modes to be wrong about than the coarser one of the trials: by what factor, is taken from the check
-/// before where trials have taken long already.
-Candidate StepSearch::checked(Candidate candidate)
+/// The sheet itself has more modes to be wrong about than the coarser one of the trials, and what differs there may come
+/// late: the whole second tells where that is cheap, or where the error may come near to what is allowed and there is
+/// time for it.
+Candidate StepSearch::checked(const Candidate& candidate)
+{
+  const double allowed = searched_.allowed.estimated;
+  const auto is_critical = [&](double error) { return candidate.error <= allowed && error > critical_share * allowed; };
+  const bool tells_all =
+      is_critical(candidate.error) || searched_.trials.can_afford_a_whole_check(steps_of_a_check(candidate).on_scene);
+  std::optional<Candidate> whole = tells_all ? checked_over_the_second(candidate) : std::nullopt;
+  if (whole)
+  {
+    return *whole;
+  }
+  const Candidate early = checked_early(candidate);
+  whole = !tells_all && is_critical(early.error) ? checked_over_the_second(candidate) : std::nullopt;
+  return whole.value_or(early);
+}
+
+/// The sheet itself tells something of these steps, and there is time to ask it.
+bool StepSearch::may_be_checked(const Candidate& candidate) const
+{
+  return searched_.trials.is_coarser() && !candidate.row->is_adaptive &&
+         (!factor_ || searched_.trials.seconds() < long_search);
+}
+
+/// Shorter steps are compared with the candidate's own, or with longer ones where the method may take them: that takes
+/// less time.
+Probe StepSearch::steps_of_a_check(const Candidate& candidate) const
+{
+  const double longer = shorter_in_a_check * candidate.time_step;
+  Probe probe{ candidate.stepping, candidate.stepping };
+  probe.on_scene.time_step = longer <= candidate.longest_of_all ? longer : candidate.time_step;
+  probe.on_trials.time_step = probe.on_scene.time_step * candidate.stretch;
+  return probe;
+}
+
+/// By the factor of the check before where trials have taken long already.
+Candidate StepSearch::checked_early(Candidate candidate)
 {
   candidate.is_checked = true;
-  if (candidate.row->is_adaptive)
+  if (may_be_checked(candidate))
   {
-    return candidate;
+    const Probe probe = steps_of_a_check(candidate);
+    factor_ = searched_.trials.early_factor(probe.on_scene, probe.on_trials).value_or(untried_allowance);
   }
-  Stepping on_scene = candidate.stepping;
-  Stepping on_trials = candidate.stepping;
-  on_scene.time_step = candidate.time_step;
-  on_trials.time_step = candidate.time_step * candidate.stretch;
-  Trials::Check check{ factor_.value_or(1.0), 0.0 };
-  if (!factor_ || searched_.trials.seconds() < long_search)
-  {
-    check = check_of(candidate, on_scene, on_trials);
-    factor_ = check.factor;
-  }
-  const int order = order_of(candidate);
-  const double gain = std::exp2(order);
-  candidate.error = std::max(candidate.error * check.factor, check.difference * gain / (gain - 1.0));
+  const bool is_of_a_coarser_one = searched_.trials.is_coarser() && !candidate.row->is_adaptive;
+  candidate.error *= is_of_a_coarser_one ? *factor_ : 1.0;
   return candidate;
 }
 
-/// Over the whole second where that is cheap, or where the error may come near to what is allowed and there is time for
-/// it: what differs on the sheet itself may come late.
-Trials::Check StepSearch::check_of(const Candidate& candidate, const Stepping& on_scene,
-                                   const Stepping& on_trials) const
+/// What shorter steps change tells the error: by the order, or of passes that work locally, whose errors fall slower
+/// than that, as on the coarser grid. None: that takes too long.
+std::optional<Candidate> StepSearch::checked_over_the_second(Candidate candidate)
 {
-  const auto check = [&](int samples) { return searched_.trials.check_on_the_sheet(on_scene, on_trials, samples); };
-  const auto is_critical = [&](double factor) {
-    return candidate.error <= searched_.allowed && candidate.error * factor > critical_share * searched_.allowed;
-  };
-  const bool tells_all = is_critical(1.0) || searched_.trials.can_afford_a_whole_check(on_scene);
-  std::optional<Trials::Check> whole = tells_all ? check(Motion::samples) : std::nullopt;
-  const std::optional<Trials::Check> early = whole ? whole : check(early_samples);
-  whole = !whole && early && is_critical(early->factor) ? check(Motion::samples) : whole;
-  const Trials::Check untried{ untried_allowance, 0.0 };
-  return whole ? *whole : early.value_or(untried);
+  const Probe probe = steps_of_a_check(candidate);
+  const std::optional<double> difference =
+      may_be_checked(candidate) ? searched_.trials.difference_on_the_sheet(probe.on_scene) : std::nullopt;
+  if (!difference)
+  {
+    return std::nullopt;
+  }
+  const double gain = std::pow(shorter_in_a_check, order_of(candidate));
+  const double of_shorter = *difference / (gain - 1.0);
+  const double error = candidate.row->iterates_locally ?
+                           candidate.error * *difference / searched_.trials.difference_on_trials(probe.on_trials) :
+                       probe.on_scene.time_step > candidate.time_step ? of_shorter :
+                                                                        gain * of_shorter;
+  const double factor = error / std::max(candidate.error, std::numeric_limits<double>::min());
+  factor_ = std::isfinite(factor) ? std::clamp(factor, 1.0, most_allowance) : most_allowance;
+  candidate.error = std::isfinite(error) ? std::max(candidate.error, error) : most_allowance * candidate.error;
+  candidate.is_checked = true;
+  return candidate;
 }
 
 /// Of what was exact enough until it was checked.
 Candidate StepSearch::made_exact_enough(Candidate candidate) const
 {
-  if (candidate.error > searched_.allowed)
+  const double allowed = searched_.allowed.estimated;
+  if (candidate.error > allowed)
   {
-    const double shorter = std::pow(searched_.allowed / candidate.error, 1.0 / order_of(candidate));
+    const double shorter = std::pow(allowed / candidate.error, 1.0 / order_of(candidate));
     candidate.time_step *= shorter;
     candidate.stepping.time_step = candidate.time_step;
     candidate.cost /= shorter;
-    candidate.error = searched_.allowed;
+    candidate.error = allowed;
   }
   return candidate;
 }
@@ -343,7 +408,7 @@ void StepSearch::choose()
           is_found            ? lengthened() :
                                 std::nullopt;
   best_ = best_ ? best_ : nearest_in_real_time();
-  best_ = best_ && !best_->is_checked ? checked(*best_) : best_;
+  best_ = best_ && !best_->is_checked ? checked_early(*best_) : best_;
   if (best_ && !is_useless(*best_))
   {
     return;
@@ -356,7 +421,7 @@ void StepSearch::choose()
   if (slower && (!best_ || worth_waiting_for * slower->error < best_->error))
   {
     in_real_time_ = best_ ? in_words(*best_) : "";
-    best_ = slower->is_checked ? *slower : checked(*slower);
+    best_ = slower->is_checked ? *slower : checked_early(*slower);
   }
 }
 

@@ -28,15 +28,16 @@ constexpr double much_shorter = 1.5;
 /// longer.
 constexpr double most_of_own = 40.0;
 constexpr double most_of_scout = 0.25;
+constexpr double evaluations_of_a_first_solve = 5000.0;
+/// What a pass over the springs takes that moves their ends one after the other.
+constexpr double evaluations_of_a_pass = 2.0;
 constexpr double most_of_scout_by_tolerance = 50.0;
 
 /// By how much the errors of a sheet may differ from those of the coarser one of a trial, and what is taken where to
 /// find out takes too long.
 constexpr double least_allowance_of_local_iterations = 1.5;
-constexpr double most_allowance = 30.0;
-constexpr double most_seconds_on_the_sheet = 1.2;
+constexpr double most_seconds_on_the_sheet = 0.9;
 constexpr double most_seconds_of_a_cheap_check = 0.4;
-constexpr double runs_of_a_check = 3.0;  // a run, and one by half of the steps
 constexpr double most_seconds_of_the_scout = 0.3;
 constexpr double most_seconds_of_a_change = 0.3;
 constexpr double most_seconds_of_changes = 0.7;
@@ -63,6 +64,11 @@ std::string key_of(const Stepping& stepping, const PartList& left_out)
     key += " without " + part;
   }
   return key;
+}
+
+double weight_of_evaluations(const MethodRow& row)
+{
+  return row.iterates_locally && row.linear_solves == 0 ? evaluations_of_a_pass : 1.0;
 }
 
 StartedScene scene_without(StartedScene scene, const PartList& parts)
@@ -149,6 +155,11 @@ double Trials::likely_limit(const MethodRow& row) const
   return cloth::likely_limit(row, spectrum_);
 }
 
+bool Trials::can_afford_a_first_solve() const
+{
+  return evaluations_of_a_first_solve < most_of_scout * Motion::horizon / scout_step_;
+}
+
 double Trials::seconds_of_a_run(double time_step, double evaluations_a_step) const
 {
   return Motion::horizon / time_step * evaluations_a_step * evaluation_ * nodes_of(pilot_) / nodes_of(scene_);
@@ -164,36 +175,44 @@ double Trials::coarseness() const
   return std::max(ratio(fine.rows - 1, coarse.rows - 1), ratio(fine.cols - 1, coarse.cols - 1));
 }
 
-std::optional<Trials::Check> Trials::check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples)
+std::optional<double> Trials::early_factor(const Stepping& stepping, const Stepping& on_trial)
 {
-  if (!is_coarser())
-  {
-    return Check();
-  }
-  if (takes_too_long(stepping, runs_of_a_check * samples / Motion::samples))
+  if (seconds_of_a_check(stepping) * early_samples / Motion::samples > most_seconds_on_the_sheet)
   {
     return std::nullopt;
   }
-  const auto halved = [](Stepping steps) {
-    steps.time_step *= 0.5;
-    return steps;
-  };
-  const auto of_the_sheet = [&](const Stepping& steps) -> const Motion& {
-    return known_or_run(scene_, {}, steps, samples, motions_of_the_sheet_);
-  };
-  const double difference = distance(of_the_sheet(stepping), of_the_sheet(halved(stepping)), samples);
-  const double ratio =
-      difference / distance(run(pilot_, on_trial, samples), run(pilot_, halved(on_trial), samples), samples);
-  const bool is_early = samples < Motion::samples;
-  const double least =
-      is_early && find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
-  return Check{ std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance,
-                !is_early && std::isfinite(difference) ? difference : 0.0 };
+  Motions early_motions;
+  const double ratio = difference_of_shorter(scene_, stepping, early_samples, motions_of_the_sheet_) /
+                       difference_of_shorter(pilot_, on_trial, early_samples, early_motions);
+  const double least = find_method(stepping.method)->iterates_locally ? least_allowance_of_local_iterations : 1.0;
+  return std::isfinite(ratio) ? std::clamp(ratio, least, most_allowance) : most_allowance;
+}
+
+std::optional<double> Trials::difference_on_the_sheet(const Stepping& stepping)
+{
+  if (seconds_of_a_check(stepping) > most_seconds_on_the_sheet)
+  {
+    return std::nullopt;
+  }
+  return difference_of_shorter(scene_, stepping, Motion::samples, motions_of_the_sheet_);
+}
+
+double Trials::difference_on_trials(const Stepping& on_trials)
+{
+  return difference_of_shorter(pilot_, on_trials, Motion::samples, motions_);
+}
+
+double Trials::difference_of_shorter(const StartedScene& scene, const Stepping& stepping, int samples, Motions& motions)
+{
+  Stepping shorter = stepping;
+  shorter.time_step /= shorter_in_a_check;
+  return distance(known_or_run(scene, {}, stepping, samples, motions),
+                  known_or_run(scene, {}, shorter, samples, motions), samples);
 }
 
 bool Trials::can_afford_a_whole_check(const Stepping& stepping) const
 {
-  return runs_of_a_check * Motion::horizon / stepping.time_step * evaluation_ < most_seconds_of_a_cheap_check;
+  return seconds_of_a_check(stepping) < most_seconds_of_a_cheap_check;
 }
 
 double Trials::error_on_the_sheet(const Stepping& stepping)
@@ -270,9 +289,11 @@ Stepping Trials::longest_of_scout_on_the_sheet() const
   return { scout_.name, Simulation::limit_share * network_stability_limit(scout_, spectrum_of_the_sheet_) };
 }
 
-bool Trials::takes_too_long(const Stepping& stepping, double horizons) const
+double Trials::seconds_of_a_check(const Stepping& stepping) const
 {
-  return horizons * Motion::horizon / stepping.time_step * evaluation_ > most_seconds_on_the_sheet;
+  const MethodRow& row = *find_method(stepping.method);
+  return (1.0 + shorter_in_a_check) * Motion::horizon / stepping.time_step * row.force_evaluations *
+         weight_of_evaluations(row) * evaluation_;
 }
 
 const Motion& Trials::motion(const Stepping& stepping)
@@ -319,7 +340,8 @@ Motion Trials::counted_motion(const StartedScene& scene, const Stepping& steppin
                               const IsEnough& is_enough)
 {
   Motion motion = motion_of(scene, stepping, most_evaluations, samples, is_enough);
-  seconds_ += evaluations_in(motion.counters) * evaluation_ * nodes_of(scene) / nodes_of(scene_);
+  seconds_ += evaluations_in(motion.counters) * weight_of_evaluations(*find_method(stepping.method)) * evaluation_ *
+              nodes_of(scene) / nodes_of(scene_);
   return motion;
 }
 

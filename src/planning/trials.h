@@ -20,6 +20,10 @@ namespace cloth
 constexpr int early_samples = 2;
 /// What is taken for a sheet's factor where to find out takes too long.
 constexpr double untried_allowance = 3.0;
+/// By how much the errors of a sheet may differ from those of a coarser one.
+constexpr double most_allowance = 30.0;
+/// A check compares steps with some that are shorter by this factor.
+constexpr double shorter_in_a_check = 1.5;
 
 /// The steps that parts are tried by.
 struct Probe
@@ -51,6 +55,9 @@ public:
     return spectrum_of_the_sheet_;
   }
 
+  /// Whether they are not on the sheet itself.
+  bool is_coarser() const;
+
   /// How much longer the cells are than the scene's.
   double coarseness() const;
 
@@ -64,6 +71,9 @@ public:
   {
     return evaluations_of_a_solve_;
   }
+
+  /// Whether there is time for a first step that solves equations, which takes far more than later ones.
+  bool can_afford_a_first_solve() const;
 
   /// Of a run with steps of this length, s of work: those of as many evaluations of the forces.
   double seconds_of_a_run(double time_step, double evaluations_a_step) const;
@@ -81,18 +91,19 @@ public:
     return evaluation_;
   }
 
-  /// What the sheet itself, which has more modes to be wrong about, says of steps that were tried on the coarser grid.
-  struct Check
-  {
-    double factor = 1.0;      ///< by which they err more there
-    double difference = 0.0;  ///< m; from half of the steps over the whole second; 0: that was not run
-  };
+  /// By which factor steps err more on the sheet itself, which has more modes to be wrong about, than `on_trial` does on
+  /// the coarser grid, as the first quarter of a second has it. None: that takes too long.
+  std::optional<double> early_factor(const Stepping& stepping, const Stepping& on_trial);
 
-  /// `stepping` on the sheet against `on_trial` on the coarser grid, over the first so many samples. None: that takes
-  /// too long.
-  std::optional<Check> check_on_the_sheet(const Stepping& stepping, const Stepping& on_trial, int samples);
+  /// What shorter steps change on the sheet itself over the whole second, m; infinite where either diverges. None: that
+  /// takes too long.
+  std::optional<double> difference_on_the_sheet(const Stepping& stepping);
 
-  /// Whether that over the whole second is cheap.
+  /// The same on the coarser grid.
+  double difference_on_trials(const Stepping& on_trials);
+
+  /// Of a run on the sheet itself and one by shorter steps, s of work, and whether that is little.
+  double seconds_of_a_check(const Stepping& stepping) const;
   bool can_afford_a_whole_check(const Stepping& stepping) const;
 
   /// How far steps are from the scout's longest on the sheet itself over the whole second, m; infinite where either of
@@ -131,9 +142,6 @@ public:
   }
 
 private:
-  bool is_coarser() const;
-  /// Whether some runs on the sheet itself, as long together as `horizons`, take too long.
-  bool takes_too_long(const Stepping& stepping, double horizons) const;
   using IsEnough = std::function<bool(const Motion&)>;
   Motion run(const StartedScene& scene, const Stepping& stepping, int samples = Motion::samples,
              const IsEnough& is_enough = {});
@@ -143,6 +151,7 @@ private:
   /// At least the first so many samples.
   const Motion& known_or_run(const StartedScene& scene, const PartList& left_out, const Stepping& stepping, int samples,
                              Motions& motions);
+  double difference_of_shorter(const StartedScene& scene, const Stepping& stepping, int samples, Motions& motions);
   double change_between(const PartList& parts, const PartList& more, const Stepping& stepping, double enough,
                         const StartedScene& scene, Motions& motions);
   double most_excess();

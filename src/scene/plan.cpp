@@ -271,8 +271,7 @@ PlanLine after_trial(PlanLine line, const Planned& planned, double tolerance)
   const std::string change = in_two_digits(tried->change) + " m";
   if (std::find(left_out.begin(), left_out.end(), line.part) == left_out.end())
   {
-    line.reason +=
-        std::string("; without, the answer changes by ") + (tried->change > tolerance ? "at least " : "") + change;
+    line.reason += "; without, the answer changes by " + change + " or more";
     return line;
   }
   return { line.part, false,
