@@ -64,9 +64,9 @@ public:
   }
 
 private:
-  /// Of the answer where `more` is left out instead of `parts`, m; or at least, where that is more than `enough` (m). The
-  /// sheet itself tells what is near the share of a
-  /// part on a coarser grid, and whether damping may go: it keeps down short waves, of which a coarser grid has none.
+  /// Of the answer where `more` is left out instead of `parts`, m; or at least, where that is more than `enough` (m).
+  /// The sheet itself tells what is near the share of a part on a coarser grid, and whether damping may go: it keeps
+  /// down short waves, of which a coarser grid has none.
   double change(const PartList& parts, const PartList& more, double enough)
   {
     const double on_trials = trials_.change(parts, more, probe_.on_trials, enough);

@@ -299,9 +299,9 @@ std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) co
   return best;
 }
 
-/// The sheet itself has more modes to be wrong about than the coarser one of the trials, and what differs there may come
-/// late: the whole second tells where that is cheap, or where the error may come near to what is allowed and there is
-/// time for it.
+/// The sheet itself has more modes to be wrong about than the coarser one of the trials, and what differs there may
+/// come late: the whole second tells where that is cheap, or where the error may come near to what is allowed and there
+/// is time for it.
 Candidate StepSearch::checked(const Candidate& candidate)
 {
   const double allowed = searched_.allowed.estimated;

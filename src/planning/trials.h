@@ -91,8 +91,8 @@ public:
     return evaluation_;
   }
 
-  /// By which factor steps err more on the sheet itself, which has more modes to be wrong about, than `on_trial` does on
-  /// the coarser grid, as the first quarter of a second has it. None: that takes too long.
+  /// By which factor steps err more on the sheet itself, which has more modes to be wrong about, than `on_trial` does
+  /// on the coarser grid, as the first quarter of a second has it. None: that takes too long.
   std::optional<double> early_factor(const Stepping& stepping, const Stepping& on_trial);
 
   /// What shorter steps change on the sheet itself over the whole second, m; infinite where either diverges. None: that

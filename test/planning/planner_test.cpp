@@ -172,6 +172,22 @@ TEST(Planned, TakesNoLongerStepThanGiven)
   EXPECT_LE(choice.time_step, 1e-4);
 }
 
+/// Steps that a trial holds against a far more exact motion of the sheet itself need no margin for extrapolation.
+TEST(Planned, ErrsByMoreOfTheToleranceWhereThatIsMeasured)
+{
+  StepCosts costs("");
+  const StartedScene scene = started(
+      damped_sheet(12,
+                   "springs: {structural: {stiffness: 2.0e+4}, shear: {stiffness: 1.0e+4}, flex: {stiffness: 1.0e+3}}, "
+                   "solver: {tolerance: 1.0e-2}"));
+  const Choice choice = plan_by_trial(scene, costs).choice;
+  const double error = distance(planned_motion(scene, choice), exact_motion(scene));
+  EXPECT_GT(choice.error, 0.6e-2);
+  EXPECT_LE(choice.error, 1e-2);
+  EXPECT_LE(error, 1e-2);
+  EXPECT_NEAR(choice.error, error, 0.2 * error);
+}
+
 /// Where steps err by more than the tolerance, trials do not tell what is below it.
 TEST(Planned, LeavesNothingOutWhereTheToleranceCannotBeHad)
 {

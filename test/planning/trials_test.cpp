@@ -80,6 +80,30 @@ TEST(Trials, FindNoErrorInTheScoutItself)
   EXPECT_GT(trials.error_on_the_sheet(half), 0.0);
 }
 
+TEST(Trials, CompareStepsWithShorterOnesOnTheSheetItself)
+{
+  StepCosts costs("");
+  const StartedScene scene = limited_sheet("0", 8);
+  Trials trials(scene, costs);
+  const Stepping steps{ "velocity_verlet", 1e-3 };
+  const Stepping shorter{ "velocity_verlet", 1e-3 / shorter_in_a_check };
+  const double difference = distance(motion_of(scene, steps, 1e9), motion_of(scene, shorter, 1e9));
+  EXPECT_GT(difference, 0.0);
+  EXPECT_EQ(trials.difference_on_the_sheet(steps).value(), difference);
+  EXPECT_EQ(trials.difference_on_trials(steps), difference);
+  EXPECT_FALSE(trials.difference_on_the_sheet({ "velocity_verlet", 1e-9 }).has_value());
+}
+
+/// The first equations take thousands of evaluations, more than a soft sheet takes altogether.
+TEST(Trials, HaveTimeForAFirstSolveOnlyOfStiffSheets)
+{
+  StepCosts costs("");
+  StartedScene scene = limited_sheet("0", 8);
+  EXPECT_FALSE(Trials(scene, costs).can_afford_a_first_solve());
+  scene.params.sheet.structural.stiffness = 1e7;
+  EXPECT_TRUE(Trials(scene, costs).can_afford_a_first_solve());
+}
+
 TEST(Trials, KnowNoExcessWithoutALimit)
 {
   StepCosts costs("");
