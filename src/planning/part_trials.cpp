@@ -10,9 +10,6 @@ namespace
 /// Of the tolerance: what a part may change the answer by, and all that is left out together.
 constexpr double share_of_a_part = 0.25;
 constexpr double share_of_all = 0.5;
-/// What a coarser grid says of a part is believed beyond these factors.
-constexpr double clearly_less = 0.25;
-constexpr double clearly_more = 2.0;
 /// What trials of parts may take, s of work.
 constexpr double most_seconds_with_scouts = 1.0;
 
@@ -26,13 +23,12 @@ public:
 
   std::vector<TriedPart> tried_alone()
   {
-    const double enough_alone = (trials_.is_coarser() ? clearly_more : 1.0) * share_of_a_part * tolerance_;
     std::vector<TriedPart> tried;
     for (const ModelPart& part : optional_parts())
     {
       if (part.is_there(trials_.scene().params))
       {
-        tried.push_back({ part.name, change({}, { part.name }, enough_alone) });
+        tried.push_back({ part.name, change({}, { part.name }, share_of_a_part) });
       }
     }
     std::stable_sort(tried.begin(), tried.end(),
@@ -52,9 +48,8 @@ public:
       const bool is_first = left_out.parts.empty();
       PartList parts = left_out.parts;
       parts.push_back(part.part);
-      const double enough = share_of_all * tolerance_;
-      const double together = is_first ? part.change : change({}, parts, enough);
-      part.change = is_first ? part.change : change(left_out.parts, parts, enough);
+      const double together = is_first ? part.change : change({}, parts, share_of_all);
+      part.change = is_first ? part.change : change(left_out.parts, parts, share_of_all);
       if (part.change < share_of_a_part * tolerance_ && together < share_of_all * tolerance_)
       {
         left_out = { parts, together };
@@ -64,16 +59,18 @@ public:
   }
 
 private:
-  /// Of the answer where `more` is left out instead of `parts`, m; or at least, where that is more than `enough` (m).
-  /// The sheet itself tells what is near the share of a part on a coarser grid, and whether damping may go: it keeps
-  /// down short waves, of which a coarser grid has none.
-  double change(const PartList& parts, const PartList& more, double enough)
+  /// Of the answer where `more` is left out instead of `parts`, m; or at least, where that is more than this share of
+  /// the tolerance. What a coarser grid is not believed, the sheet itself tells.
+  double change(const PartList& parts, const PartList& more, double enough_share)
   {
-    const double on_trials = trials_.change(parts, more, probe_.on_trials, enough);
-    const bool lets_short_waves_grow = std::find(more.begin(), more.end(), internal_damping) != more.end();
-    const bool may_go = on_trials < clearly_more * share_of_a_part * tolerance_;
-    const bool is_clear = on_trials < clearly_less * share_of_a_part * tolerance_ && !lets_short_waves_grow;
-    return may_go && !is_clear ? trials_.change_on_the_sheet(parts, more, probe_, on_trials, enough) : on_trials;
+    const double enough = enough_share * tolerance_;
+    const Belief belief = belief_in_a_coarser_grid(more);
+    const double much = belief.more * share_of_a_part * tolerance_;
+    const double little = belief.less * share_of_a_part * tolerance_;
+    const double on_trials =
+        trials_.change(parts, more, probe_.on_trials, trials_.is_coarser() ? std::max(enough, much) : enough);
+    const bool is_clear = on_trials < little || on_trials >= much;
+    return is_clear ? on_trials : trials_.change_on_the_sheet(parts, more, probe_, on_trials, enough);
   }
 
   Trials& trials_;

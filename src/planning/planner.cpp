@@ -18,7 +18,7 @@ namespace
 /// Of the tolerance: what method and step may err by, where their errors are estimated and where they are measured;
 /// these with what the model errs by for want of what is left out are not above it.
 constexpr double estimated_share = 0.5;
-constexpr double measured_share = 0.8;
+constexpr double measured_share = 0.9;
 
 /// What is left out, and the cheapest steps without it. None: no method has a stable step.
 struct Found

@@ -224,22 +224,18 @@ bool StepSearch::is_cheapest_checked() const
   return found_.empty() || found_.front().is_checked || found_.front().cost > real_time_share;
 }
 
-/// What is the cheapest may be another then, or one that is worth a trial only now. A check that takes more than it may
-/// save is left out, and so is what it was about.
+/// What is the cheapest may be another then, or one that is worth a trial only now. Where something else is checked
+/// already, a check over the whole second has to pay.
 void StepSearch::check_cheapest()
 {
-  const auto next_checked =
-      std::find_if(found_.begin(), found_.end(), [](const Candidate& other) { return other.is_checked; });
-  const double cost = found_.front().cost;
-  if (next_checked != found_.end() && !is_worth((1.0 + shorter_in_a_check) * cost, next_checked->cost - cost))
-  {
-    found_.erase(found_.begin());
-    return;
-  }
   const Candidate candidate = found_.front();
+  const auto next = std::find_if(found_.begin(), found_.end(), [](const Candidate& other) { return other.is_checked; });
+  const bool pays =
+      next == found_.end() ||
+      is_worth(searched_.trials.seconds_of_a_check(steps_of_a_check(candidate).on_scene), next->cost - candidate.cost);
   const std::optional<Candidate> fitted =
       may_be_fitted(candidate) ? fitted_on_the_sheet(candidate) : std::optional<Candidate>();
-  found_.front() = fitted ? *fitted : made_exact_enough(checked(candidate));
+  found_.front() = fitted ? *fitted : made_exact_enough(pays ? checked(candidate) : checked_early(candidate));
   std::stable_sort(found_.begin(), found_.end(), is_cheaper);
 }
 
@@ -255,11 +251,17 @@ bool StepSearch::may_be_fitted(const Candidate& candidate) const
 {
   return !candidate.row->is_adaptive && candidate.row != &searched_.trials.scout() &&
          searched_.trials.can_afford_the_scout_on_the_sheet() &&
-         scout_of_trials_->error_of_longest() < reference_share * searched_.allowed.measured;
+         error_of_scout_on_the_sheet() < reference_share * searched_.allowed.measured;
+}
+
+/// Of its longest steps, m.
+double StepSearch::error_of_scout_on_the_sheet() const
+{
+  return factor_.value_or(1.0) * scout_of_trials_->error_of_longest();
 }
 
 /// With steps that err there by what is allowed, as the line through the last two errors has it. None: they do not come
-/// to it.
+/// to it, or cost more by then than something else.
 std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) const
 {
   const double allowed = searched_.allowed.measured;
@@ -268,12 +270,18 @@ std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) co
   candidate.is_checked = true;
   double error_before = 0.0;
   double step_before = 0.0;
-  for (int run = 0; run < most_fits && !(best && searched_.trials.seconds() > long_search); ++run)
+  const auto other =
+      std::find_if(found_.begin(), found_.end(), [&](const Candidate& found) { return found.row != candidate.row; });
+  const double most_cost = other == found_.end() ? std::numeric_limits<double>::infinity() : other->cost;
+  const auto pays = [&] {
+    return candidate.cost < most_cost && searched_.trials.seconds() + candidate.cost * Motion::horizon < long_search;
+  };
+  for (int run = 0; run == 0 || (run < most_fits && pays()); ++run)
   {
     const bool is_longest = candidate.time_step >= candidate.longest_of_all;
     candidate.stepping.time_step = candidate.time_step;
     candidate.error =
-        std::hypot(searched_.trials.error_on_the_sheet(candidate.stepping), scout_of_trials_->error_of_longest());
+        std::hypot(searched_.trials.error_on_the_sheet(candidate.stepping), error_of_scout_on_the_sheet());
     candidate.stepping.time_step = as_limited && is_longest ? 0.0 : candidate.time_step;
     const bool is_exact_enough = candidate.error <= allowed;
     if (is_exact_enough && (!best || candidate.time_step > best->time_step))

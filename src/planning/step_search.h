@@ -48,6 +48,7 @@ private:
   Candidate made_exact_enough(Candidate candidate) const;
   bool is_fitted_at_once(const Candidate& candidate) const;
   bool may_be_fitted(const Candidate& candidate) const;
+  double error_of_scout_on_the_sheet() const;
   std::optional<Candidate> fitted_on_the_sheet(Candidate candidate) const;
   int order_of(const Candidate& candidate) const;
   void choose();

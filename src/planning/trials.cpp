@@ -39,7 +39,7 @@ constexpr double least_allowance_of_local_iterations = 1.5;
 constexpr double most_seconds_on_the_sheet = 0.9;
 constexpr double most_seconds_of_a_cheap_check = 0.4;
 constexpr double most_seconds_of_the_scout = 0.3;
-constexpr double most_seconds_of_a_change = 0.3;
+constexpr double most_seconds_of_a_change = 0.5;
 constexpr double most_seconds_of_changes = 0.7;
 
 /// What passes of the strain limit that are too few for a step may leave of a strain, relative to the limit, whatever
