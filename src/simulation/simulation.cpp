@@ -182,7 +182,8 @@ void Simulation::take_equal_steps(double time, double longest)
   const double begin = state_.time;
   const std::uint64_t steps = steps_for(time - begin, longest);
   const double h = (time - begin) / static_cast<double>(steps);
-  const std::uint64_t until_check = std::min<std::uint64_t>(steps, steps_between_checks);
+  const std::uint64_t until_check =
+      std::min({ steps, std::uint64_t(steps_between_checks), stability_watch_.steps_between_looks() });
   for (std::uint64_t s = 1; s <= until_check; ++s)
   {
     step(h);

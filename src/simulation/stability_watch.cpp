@@ -1,13 +1,19 @@
 #include "cloth_sim/simulation/stability_watch.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace cloth
 {
 namespace
 {
 
-constexpr std::uint64_t steps_between_looks = 64;
+constexpr std::uint64_t fewest_steps_between_looks = 8;
+constexpr std::uint64_t most_steps_between_looks = 64;
+/// How much bounds may change from one look to the next, relative, and how much later the next one may be.
+constexpr double change_between_looks = 0.02;
+constexpr double most_delay = 2.0;
 constexpr std::uint64_t steps_between_spectra = 256;
 constexpr double allowed_change = 1.05;
 
@@ -16,6 +22,17 @@ constexpr double allowed_change = 1.05;
 double grown(double eigenvalue, const Eigen::VectorXd& before, const Eigen::VectorXd& now)
 {
   return eigenvalue * (now.array() / before.array().max(eigenvalue)).maxCoeff();
+}
+
+double relative_change(double before, double now)
+{
+  return std::abs(now - before) / std::max(before, std::numeric_limits<double>::min());
+}
+
+/// Of that which has changed most.
+double relative_change(const SpectrumBounds& before, const SpectrumBounds& now)
+{
+  return std::max(relative_change(before.stiffness, now.stiffness), relative_change(before.damping, now.damping));
 }
 
 /// By so much that the limit is another.
@@ -37,12 +54,14 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
   {
     return *of_any_shape_;
   }
-  if (known_ && steps - looked_at_ < steps_between_looks)
+  if (known_ && steps - looked_at_ < steps_between_looks_)
   {
     return limit_;
   }
-  looked_at_ = steps;
   const SpectrumBounds bounds = likely(spectrum_bounds(dynamics, state.positions));
+  steps_between_looks_ = delay_of_next_look(bounds, steps);
+  looked_at_ = steps;
+  seen_ = bounds;
   const bool is_other = !known_ || is_above(bounds, bounds_) || is_above(bounds_, bounds);
   const bool may_be_long = !spectrum_ || steps - spectrum_at_ >= steps_between_spectra;
   const bool is_short = !is_exact_ && may_be_long && limit_ < enough;
@@ -61,6 +80,19 @@ double StabilityWatch::limit(const MethodRow& method, const Dynamics& dynamics, 
   return limit_;
 }
 
+/// As late as the bounds have changed by what they may if they go on as since the last look.
+std::uint64_t StabilityWatch::delay_of_next_look(const SpectrumBounds& bounds, std::uint64_t steps) const
+{
+  if (!known_)
+  {
+    return fewest_steps_between_looks;
+  }
+  const double change = relative_change(seen_, bounds);
+  const double factor = change * most_delay > change_between_looks ? change_between_looks / change : most_delay;
+  const auto delay = static_cast<std::uint64_t>(factor * static_cast<double>(steps - looked_at_));
+  return std::clamp(delay, fewest_steps_between_looks, most_steps_between_looks);
+}
+
 void StabilityWatch::take_spectrum(const MethodRow& method, const Dynamics& dynamics, const ClothState& state,
                                    std::uint64_t steps)
 {
@@ -68,6 +100,7 @@ void StabilityWatch::take_spectrum(const MethodRow& method, const Dynamics& dyna
   spectrum_bounds_ = spectrum_bounds(dynamics, state.positions);
   spectrum_at_ = steps;
   bounds_ = likely(spectrum_bounds_);
+  seen_ = bounds_;
   limit_ = network_stability_limit(method, *spectrum_);
   is_exact_ = true;
 }

@@ -49,12 +49,52 @@ TEST_F(StabilityWatchTest, IsExactAtFirstAndWhenItWasForgotten)
   EXPECT_DOUBLE_EQ(limit_after(1), exact_limit());
 }
 
-TEST_F(StabilityWatchTest, LooksEvery64Steps)
+TEST_F(StabilityWatchTest, LooksAgainSoonAtFirst)
 {
   const double before = limit_after(0);
   stretch(2.0);
-  EXPECT_EQ(limit_after(63), before);
-  EXPECT_LT(limit_after(64), 0.95 * before);
+  EXPECT_EQ(limit_after(7), before);
+  EXPECT_LT(limit_after(8), 0.95 * before);
+}
+
+TEST_F(StabilityWatchTest, LooksSeldomWhereNothingChangesAndOftenWhereSomethingDoes)
+{
+  const double before = limit_after(0);
+  std::uint64_t steps = 0;
+  for (const std::uint64_t looks : { 16, 32, 64, 64 })
+  {
+    steps += watch_.steps_between_looks();
+    EXPECT_EQ(limit_after(steps), before);
+    EXPECT_EQ(watch_.steps_between_looks(), looks);
+  }
+  stretch(1.3);
+  EXPECT_EQ(limit_after(steps + 63), before);
+  EXPECT_LT(limit_after(steps + 64), before);
+  EXPECT_EQ(watch_.steps_between_looks(), 8);
+}
+
+/// As often as bounds change by a fiftieth.
+TEST_F(StabilityWatchTest, LooksAsOftenAsTheSheetChanges)
+{
+  Noise noise;
+  state_.positions += 0.01 * noise.vectors(dynamics_.model().nodes());
+  stretch(1.2);
+  limit_after(0);
+  std::uint64_t steps = 0;
+  for (int look = 0; look < 20; ++look)
+  {
+    const std::uint64_t until = steps + watch_.steps_between_looks();
+    for (; steps < until; ++steps)
+    {
+      stretch(1.003);
+    }
+    EXPECT_LE(limit_after(steps), 1.01 * exact_limit()) << look;
+  }
+  const SpectrumBounds before = spectrum_bounds(dynamics_, state_.positions);
+  stretch(std::pow(1.003, watch_.steps_between_looks()));
+  const double change = spectrum_bounds(dynamics_, state_.positions).stiffness / before.stiffness - 1.0;
+  EXPECT_GT(change, 0.005);
+  EXPECT_LT(change, 0.03);
 }
 
 TEST_F(StabilityWatchTest, OfTheBoundIsNeitherTooLargeNorFarTooSmall)
