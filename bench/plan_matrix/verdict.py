@@ -109,12 +109,13 @@ def cost_ratio(one, other):
 
 
 def monotone(half):
-    """Of each scene, every tolerance against the next tighter one."""
+    """Of each scene, every tolerance against the next tighter one, unless the plan for that says that it misses it: then
+    its cost is not that of the tolerance."""
     cases = []
     for scene in sorted({plan.scene for plan in half.plans}):
         plans = sorted((plan for plan in half.plans if plan.scene == scene), key=lambda plan: -plan.tolerance)
         for loose, tight in zip(plans, plans[1:]):
-            if not went_well(loose) or not went_well(tight):
+            if not went_well(loose) or not went_well(tight) or admits_failure(tight):
                 continue
             value = cost_ratio(loose, tight)
             cases.append(Case(about(loose), value <= MONOTONE_MARGIN, value))

@@ -153,9 +153,16 @@ private:
     longest_on_trials_ = std::min(is_given_ ? longest_ * stretch() : of_trials, of_trials);
   }
 
+  /// Against a reference, or the method's own steps where those are exact enough for one.
+  bool is_measured() const
+  {
+    const bool is_own_reference =
+        errors_->falls() && errors_->error_of_finest() < reference_share * searched_.allowed.measured;
+    return (errors_->has_reference() || is_own_reference) && !searched_.trials.is_coarser();
+  }
   double allowed() const
   {
-    return searched_.allowed_with(errors_->reference());
+    return is_measured() ? searched_.allowed.measured : searched_.allowed.estimated;
   }
 
   /// How much longer a step on the coarser grid does the same.
@@ -206,7 +213,9 @@ private:
     const double finest = errors_->finest_step() / stretch();
     const double step = std::min(longest_, errors_->step_for(allowed()) / stretch());
     const bool is_stability = step == longest_;
-    const bool may_be_longer = !is_stability && !errors_->has_two() && row_.order > 1 && trial_cost() < cheap_trial;
+    const bool is_guess = !errors_->has_two() && row_.order > 1;
+    const bool may_be_measured = !is_measured() && !searched_.trials.is_coarser() && !errors_->is_at_its_floor();
+    const bool may_be_longer = !is_stability && (is_guess || may_be_measured) && trial_cost() < cheap_trial;
     if ((step >= least_of_finest * finest && !may_be_longer) || is_stability)
     {
       found_ = candidate_of(step);
@@ -287,7 +296,8 @@ public:
     error_ = reference.motion != nullptr ? std::hypot(distance(motion, *reference.motion), reference.error) :
              tried_.size() > 1 ? distance(motion, searched_.trials.motion(stepping_of(tried_[tried_.size() - 2]))) :
                                  std::numeric_limits<double>::infinity();
-    if (error_ <= searched_.allowed_with(reference))
+    const bool is_measured = reference.motion != nullptr && !searched_.trials.is_coarser();
+    if (error_ <= (is_measured ? searched_.allowed.measured : searched_.allowed.estimated))
     {
       found_ = candidate();
     }

@@ -15,6 +15,9 @@ namespace cloth
 /// Errors that differ by less than this factor are the same.
 constexpr double level_errors = 1.25;
 
+/// A reference errs by no more than this part of what may be erred by.
+constexpr double reference_share = 0.25;
+
 /// A method and its steps.
 struct Candidate
 {
@@ -34,7 +37,7 @@ struct Candidate
 struct Allowance
 {
   double estimated;  ///< where that follows from how runs differ, or from a coarser grid
-  double measured;   ///< where it is how far they are from a more exact motion of the sheet itself, all along
+  double measured;   ///< where it is how far they are from a far more exact motion of the sheet itself, all along
 };
 
 /// What all searches of a scene share.
@@ -44,11 +47,6 @@ struct SearchedScene
   Allowance allowed;
   Trials& trials;
   StepCosts& costs;
-
-  double allowed_with(const MethodErrors::Reference& reference) const
-  {
-    return reference.motion != nullptr && !trials.is_coarser() ? allowed.measured : allowed.estimated;
-  }
 };
 
 /// Looks for the cheapest steps of one method that are exact enough, a trial at a time and the cheapest trials first.

@@ -28,7 +28,7 @@ public:
     {
       if (part.is_there(trials_.scene().params))
       {
-        tried.push_back({ part.name, change({}, { part.name }, share_of_a_part) });
+        tried.push_back({ part.name, change({}, { part.name }) });
       }
     }
     std::stable_sort(tried.begin(), tried.end(),
@@ -41,15 +41,15 @@ public:
     LeftOut left_out;
     for (TriedPart& part : tried)
     {
-      if (part.change >= share_of_a_part * tolerance_)
+      const bool is_first = left_out.parts.empty();
+      if (part.change >= (is_first ? share_of_a_part : share_of_all) * tolerance_)
       {
         break;
       }
-      const bool is_first = left_out.parts.empty();
       PartList parts = left_out.parts;
       parts.push_back(part.part);
-      const double together = is_first ? part.change : change({}, parts, share_of_all);
-      part.change = is_first ? part.change : change(left_out.parts, parts, share_of_all);
+      const double together = is_first ? part.change : change({}, parts);
+      part.change = is_first ? part.change : change(left_out.parts, parts);
       if (part.change < share_of_a_part * tolerance_ && together < share_of_all * tolerance_)
       {
         left_out = { parts, together };
@@ -59,11 +59,11 @@ public:
   }
 
 private:
-  /// Of the answer where `more` is left out instead of `parts`, m; or at least, where that is more than this share of
-  /// the tolerance. What a coarser grid is not believed, the sheet itself tells.
-  double change(const PartList& parts, const PartList& more, double enough_share)
+  /// Of the answer where `more` is left out instead of `parts`, m; or at least, where that is more than all that is
+  /// left out may change it by. Where a coarser grid is not believed, the sheet itself tells.
+  double change(const PartList& parts, const PartList& more)
   {
-    const double enough = enough_share * tolerance_;
+    const double enough = share_of_all * tolerance_;
     const Belief belief = belief_in_a_coarser_grid(more);
     const double much = belief.more * share_of_a_part * tolerance_;
     const double little = belief.less * share_of_a_part * tolerance_;

@@ -18,7 +18,7 @@ namespace
 /// Of the tolerance: what method and step may err by, where their errors are estimated and where they are measured;
 /// these with what the model errs by for want of what is left out are not above it.
 constexpr double estimated_share = 0.5;
-constexpr double measured_share = 0.9;
+constexpr double measured_share = 0.85;
 
 /// What is left out, and the cheapest steps without it. None: no method has a stable step.
 struct Found
@@ -56,7 +56,7 @@ std::optional<Found> search_without_parts(const StartedScene& scene, Trials& tri
   }
   StartedScene lesser = scene;
   lesser.params = without(scene.params, left_out.parts);
-  Trials lesser_trials(lesser, costs);
+  Trials lesser_trials(lesser, costs, trials.seconds());
   Found found = search_steps(lesser, lesser_trials, costs, left_out);
   return found.best && found.best->error <= scene.params.solver.tolerance ? std::optional<Found>(found) : std::nullopt;
 }

@@ -30,9 +30,6 @@ constexpr double saving_of_late_trials = 4.0;
 constexpr double long_search = 1.0;
 constexpr double saving_of_last_trials = 8.0;
 
-/// A reference errs by no more than this part of what may be erred by.
-constexpr double reference_share = 0.25;
-
 /// What comes nearest in real time is made longer only where it errs by hardly more, by this factor at most.
 constexpr double hardly_more = 1.05;
 
@@ -43,6 +40,7 @@ constexpr double critical_share = 0.1;
 /// How many steps are tried to come between this part of what is allowed and all of it; how errors may grow with the
 /// step, and by what factor it may change at a time.
 constexpr int most_fits = 6;
+constexpr double cheap_fit = 0.1;  // s of work, whatever trials have taken
 constexpr double fit = 0.85;
 constexpr double least_slope = 0.4;
 constexpr double most_slope = 3.0;
@@ -274,7 +272,8 @@ std::optional<Candidate> StepSearch::fitted_on_the_sheet(Candidate candidate) co
       std::find_if(found_.begin(), found_.end(), [&](const Candidate& found) { return found.row != candidate.row; });
   const double most_cost = other == found_.end() ? std::numeric_limits<double>::infinity() : other->cost;
   const auto pays = [&] {
-    return candidate.cost < most_cost && searched_.trials.seconds() + candidate.cost * Motion::horizon < long_search;
+    const double seconds = candidate.cost * Motion::horizon;
+    return candidate.cost < most_cost && (seconds < cheap_fit || searched_.trials.seconds() + seconds < long_search);
   };
   for (int run = 0; run == 0 || (run < most_fits && pays()); ++run)
   {

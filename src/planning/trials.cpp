@@ -30,13 +30,13 @@ constexpr double most_of_own = 40.0;
 constexpr double most_of_scout = 0.25;
 constexpr double evaluations_of_a_first_solve = 5000.0;
 /// What a pass over the springs takes that moves their ends one after the other.
-constexpr double evaluations_of_a_pass = 2.0;
+constexpr double evaluations_of_a_pass = 3.0;
 constexpr double most_of_scout_by_tolerance = 50.0;
 
 /// By how much the errors of a sheet may differ from those of the coarser one of a trial, and what is taken where to
 /// find out takes too long.
 constexpr double least_allowance_of_local_iterations = 1.5;
-constexpr double most_seconds_on_the_sheet = 0.9;
+constexpr double most_seconds_on_the_sheet = 1.0;
 constexpr double most_seconds_of_a_cheap_check = 0.4;
 constexpr double most_seconds_of_the_scout = 0.3;
 constexpr double most_seconds_of_a_change = 0.5;
@@ -123,11 +123,12 @@ StartedScene pilot_of(const StartedScene& scene, int factor)
 
 }  // namespace
 
-Trials::Trials(const StartedScene& scene, StepCosts& costs)
+Trials::Trials(const StartedScene& scene, StepCosts& costs, double seconds_before)
   : scene_(scene)
   , spectrum_of_the_sheet_(spectrum_at_the_start(scene))
   , scout_(scout_for(spectrum_of_the_sheet_))
   , evaluation_(costs.of_an_evaluation(scene, { second_order }))
+  , seconds_(seconds_before)
 {
   const double step = Simulation::limit_share * network_stability_limit(scout_, spectrum_of_the_sheet_);
   pilot_ = pilot_of(scene, coarsening_of(scene, Motion::horizon / step * evaluation_));

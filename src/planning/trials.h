@@ -23,7 +23,7 @@ constexpr double untried_allowance = 3.0;
 /// By how much the errors of a sheet may differ from those of a coarser one.
 constexpr double most_allowance = 30.0;
 /// A check compares steps with some that are shorter by this factor.
-constexpr double shorter_in_a_check = 1.5;
+constexpr double shorter_in_a_check = 2.0;
 
 /// The steps that parts are tried by.
 struct Probe
@@ -36,8 +36,9 @@ struct Probe
 class Trials
 {
 public:
-  /// Throws SceneError where the scene cannot be stepped.
-  Trials(const StartedScene& scene, StepCosts& costs);
+  /// Trials of another model may have taken some time before, s of work. Throws SceneError where the scene cannot be
+  /// stepped.
+  Trials(const StartedScene& scene, StepCosts& costs, double seconds_before = 0.0);
 
   /// The method that others are held against: of second order, and as cheap as any explicit one, unless the springs'
   /// damping makes its steps much shorter than those of the cheapest of first order.
@@ -163,7 +164,7 @@ private:
   StartedScene pilot_;
   Spectrum spectrum_;  ///< of the coarser grid
   double scout_step_;  ///< the scout's longest there, s
-  double seconds_ = 0.0;
+  double seconds_;
   double evaluations_of_a_solve_ = 0.0;
   std::optional<double> most_excess_;  ///< of strain above its limit, relative to that
   Motions motions_;                    ///< on the coarser grid
