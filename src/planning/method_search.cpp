@@ -15,6 +15,7 @@ constexpr double longest_trial_step = 1.0 / 16.0;
 constexpr size_t most_runs = 10;
 /// Errors that neither fall as the order says nor stay as they are by then need other trials to make sense of.
 constexpr size_t enough_runs = 4;
+constexpr size_t enough_runs_of_chaos = 6;
 /// A step is believed to be as exact as the line through the errors says down to this part of the shortest one tried.
 constexpr double least_of_finest = 0.5;
 /// What a step that solves equations takes at least, in evaluations of the forces.
@@ -135,11 +136,12 @@ public:
 
   bool knows_its_floor() const override
   {
-    return runs_ >= enough_runs || (runs_ > 2 && (errors_->falls() || errors_->is_at_its_floor()));
+    const bool is_clear = errors_ && (errors_->falls() || is_at_its_floor());
+    return (runs_ > 2 && is_clear) || (runs_ >= enough_runs && !may_fall_yet());
   }
   bool is_at_its_floor() const override
   {
-    return errors_ && errors_->is_at_its_floor();
+    return errors_ && errors_->is_at_its_floor() && !may_fall_yet();
   }
 
 private:
@@ -151,6 +153,12 @@ private:
     longest_ = is_given_ ? given : longest_;
     const double of_trials = is_limited_ ? Simulation::limit_share * limit_of_trials : longest_trial_step;
     longest_on_trials_ = std::min(is_given_ ? longest_ * stretch() : of_trials, of_trials);
+  }
+
+  /// Another run is cheap, and errors that did not fall so far may do so in shorter steps.
+  bool may_fall_yet() const
+  {
+    return runs_ < enough_runs_of_chaos && trial_cost() < cheap_trial;
   }
 
   /// Against a reference, or the method's own steps where those are exact enough for one.
@@ -214,7 +222,7 @@ private:
     const double step = std::min(longest_, errors_->step_for(allowed()) / stretch());
     const bool is_stability = step == longest_;
     const bool is_guess = !errors_->has_two() && row_.order > 1;
-    const bool may_be_measured = !is_measured() && !searched_.trials.is_coarser() && !errors_->is_at_its_floor();
+    const bool may_be_measured = !is_measured() && !searched_.trials.is_coarser() && !is_at_its_floor();
     const bool may_be_longer = !is_stability && (is_guess || may_be_measured) && trial_cost() < cheap_trial;
     if ((step >= least_of_finest * finest && !may_be_longer) || is_stability)
     {

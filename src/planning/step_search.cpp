@@ -187,7 +187,8 @@ MethodErrors::Reference StepSearch::most_exact_but(const MethodSearch& asking) c
 MethodErrors::Reference StepSearch::reference_for(const MethodSearch& asking) const
 {
   const MethodErrors::Reference best = most_exact_but(asking);
-  return best.error < reference_share * searched_.allowed.estimated ? best : MethodErrors::Reference{};
+  const double allowed = searched_.trials.is_coarser() ? searched_.allowed.estimated : searched_.allowed.measured;
+  return best.error < reference_share * allowed ? best : MethodErrors::Reference{};
 }
 
 bool StepSearch::is_worth_a_trial(const MethodSearch& search) const

@@ -14,7 +14,7 @@ constexpr std::uint64_t most_steps_between_looks = 64;
 /// How much bounds may change from one look to the next, relative, and how much later the next one may be.
 constexpr double change_between_looks = 0.02;
 constexpr double most_delay = 2.0;
-constexpr std::uint64_t steps_between_spectra = 256;
+constexpr std::uint64_t steps_between_spectra = 512;
 constexpr double allowed_change = 1.05;
 
 /// What an eigenvalue may have become since: modes about a node are as fast as its part in the bound at most, and grow

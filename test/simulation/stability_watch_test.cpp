@@ -108,14 +108,14 @@ TEST_F(StabilityWatchTest, OfTheBoundIsNeitherTooLargeNorFarTooSmall)
   EXPECT_GE(of_bound, 0.75 * exact_limit());
 }
 
-TEST_F(StabilityWatchTest, IsWorkedOutFromTheSpectrumAgainAfter256Steps)
+TEST_F(StabilityWatchTest, IsWorkedOutFromTheSpectrumAgainAfter512Steps)
 {
   limit_after(0);
   Noise noise;
   state_.positions += 0.01 * noise.vectors(dynamics_.model().nodes());
   stretch(2.0);
   limit_after(64);
-  EXPECT_DOUBLE_EQ(limit_after(64 + 256), exact_limit());
+  EXPECT_DOUBLE_EQ(limit_after(64 + 512), exact_limit());
 }
 
 TEST_F(StabilityWatchTest, GrowsAgainWhereTheSheetIsSlackAgain)

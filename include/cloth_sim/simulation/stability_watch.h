@@ -18,7 +18,7 @@ namespace cloth
 /// have become since its spectrum was taken; where that is a twentieth, the limit is worked out anew. A look takes as
 /// long as two to four steps. There are 8 to 64 steps between two looks: as many as will change the bounds by a
 /// fiftieth if they go on to change as they have. Lanczos takes as long as some 20, or 50 where internal damping
-/// matters, so there are at least 256 steps between two spectra. Where the limit is wanted sooner it follows from the
+/// matters, so there are at least 512 steps between two spectra. Where the limit is wanted sooner it follows from the
 /// last spectrum, grown as the bounds have: an estimate, but never above what the bounds alone allow.
 ///
 /// Steps that are known to be short enough need less: none of it where the network in whatever shape is stable at them,
