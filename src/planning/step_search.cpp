@@ -139,7 +139,8 @@ MethodSearch* StepSearch::next_search() const
   {
     return nullptr;
   }
-  if (!scout_->knows_its_floor() && !scout_->is_over())
+  const bool has_time = searched_.trials.seconds() + scout_->trial_cost() < long_search;
+  if (!scout_->knows_its_floor() && !scout_->is_over() && has_time)
   {
     return scout_;
   }
