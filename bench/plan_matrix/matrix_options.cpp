@@ -67,7 +67,7 @@ three tolerances, and holds the plans against what was found. It runs on one cor
 
   --out DIR        where everything goes; plan_matrix. What is there already is not done again
   --scenes N       how many; 60
-  --seed S         which are held out; 4
+  --seed S         which are held out; 7
   --most-nodes N   a side of a sheet, from 8; 96
   --half HALF      development (even numbers), held_out (odd ones), both
   --only WORK      search: no plans; plans: those of scenes that have been searched

@@ -78,6 +78,10 @@ class Cases(unittest.TestCase):
         self.assertFalse(verdict.holds(pair(1.11, 1.0)))
         self.assertTrue(verdict.holds(pair(1.5, 1.0, time_step=1e-3)), "the same choice")
 
+    def test_a_plan_that_misses_its_tolerance_does_not_say_what_that_costs(self):
+        plans = [synthetic.plan("a", 1e-2, cost=9.0), synthetic.plan("a", 1e-3, cost=1.0, estimate=2e-3, true_error=2e-3)]
+        self.assertIsNone(verdict.holds(judged("monotone", plans)))
+
     def test_a_tolerance_that_the_method_does_not_read_is_no_other_choice(self):
         def pair(method):
             return judged("monotone", [
