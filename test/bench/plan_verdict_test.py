@@ -54,6 +54,9 @@ class Shares(unittest.TestCase):
     def test_planning(self):
         self.expect("planning", synthetic.plan("bad", cost=2.0, planning=2.0), 0.9)
 
+    def test_start(self):
+        self.expect("start", synthetic.plan("bad", planning_seconds=1.0), 0.9)
+
 
 class Cases(unittest.TestCase):
     def test_a_plan_that_says_that_it_misses_is_not_dishonest(self):
