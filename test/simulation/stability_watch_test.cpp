@@ -1,5 +1,6 @@
 // A limit that is asked for often follows the sheet, and is never too large.
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -206,6 +207,43 @@ TEST_F(StabilityWatchTest, StaysWhileNoNodeIsHeldMuchStiffer)
   }
   stretch(1.2);
   EXPECT_NE(limit_after(64 * 21), before);
+}
+
+/// A soft sheet of few nodes that is let go changes much in 64 steps.
+TEST(StabilityWatchOfARun, KeepsStepsWithinTheLimitWhileASheetIsPulledFromRest)
+{
+  SceneParams scene = shipped_scene("hanging_sheet");
+  scene.sheet.rows = 8;
+  scene.sheet.cols = 14;
+  scene.sheet.structural = { 200.0, 0.0 };
+  scene.sheet.shear = { 0.0, 0.0 };
+  scene.sheet.flex = { 7.0, 0.0 };
+  scene.sheet.mass = 0.3;
+  scene.strain_limit.max_strain = 0.0;
+  scene.solver.method = "velocity_verlet";
+  Simulation simulation = build_simulation(make_plan(scene));
+  double most = 0.0;
+  double time_before = 0.0;
+  std::uint64_t steps_before = 0;
+  const auto look = [&] {
+    const std::uint64_t steps = simulation.counters().steps;
+    if (steps > steps_before)
+    {
+      const double h = (simulation.state().time - time_before) / static_cast<double>(steps - steps_before);
+      const Spectrum spectrum = spectrum_of(simulation.dynamics(), simulation.state().positions);
+      most = std::max(most, h / network_stability_limit(simulation.method(), spectrum));
+    }
+    time_before = simulation.state().time;
+    steps_before = steps;
+    return false;
+  };
+  for (int eighth = 1; eighth <= 8; ++eighth)
+  {
+    simulation.advance_to(eighth / 8.0, look);
+    look();
+  }
+  EXPECT_GT(most, 0.85);
+  EXPECT_LT(most, 0.96);
 }
 
 }  // namespace
