@@ -29,10 +29,6 @@ public:
   {
     return reference_.motion != nullptr;
   }
-  const Reference& reference() const
-  {
-    return reference_;
-  }
 
   /// Runs the longest step first, then half the step before.
   void run_next();

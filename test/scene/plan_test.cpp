@@ -140,7 +140,7 @@ TEST(Plan, SaysWhetherStepsAreCheckedWhileTheyRun)
   EXPECT_EQ(line_of("error watch", "solver: {method: rk4}"), "error watch: left out, solver.method is rk4, not auto");
 }
 
-/// A heavy sheet stretches soon, and a look later the limit is known no better than the bounds say.
+/// A heavy sheet stretches soon, and for some steps the limit is known no better than the bounds say.
 TEST(Plan, SaysWhereTheStepFollowsFromABound)
 {
   const Plan plan =
@@ -148,9 +148,15 @@ TEST(Plan, SaysWhereTheStepFollowsFromABound)
                          "{method: velocity_verlet}}"));
   Simulation simulation = build_simulation(plan);
   EXPECT_TRUE(has(describe(plan, simulation).back(), { " s, 0.9 of the stability limit of velocity_verlet" }));
-  ASSERT_TRUE(simulation.advance_to(0.8));
-  const std::string line = describe(plan, simulation).back();
-  EXPECT_TRUE(has(line, { " s, from a bound within 0.9 of the stability limit of velocity_verlet" })) << line;
+  bool follows_from_a_bound = false;
+  for (int tick = 1; tick <= 20; ++tick)
+  {
+    ASSERT_TRUE(simulation.advance_to(0.1 * tick));
+    const std::string line = describe(plan, simulation).back();
+    follows_from_a_bound |=
+        line.find(" s, from a bound within 0.9 of the stability limit of velocity_verlet") != std::string::npos;
+  }
+  EXPECT_TRUE(follows_from_a_bound);
 }
 
 TEST(Plan, SaysWhatTheLastCheckFound)
