@@ -22,8 +22,6 @@ constexpr double least_of_finest = 0.5;
 constexpr double evaluations_of_a_solve = 300.0;
 /// And in parts of what it took in another method's longest steps.
 constexpr double share_of_another_solve = 0.5;
-/// What a pass takes that handles springs one after the other, likewise.
-constexpr double evaluations_of_an_iteration = 3.0;
 /// What a trial may take that only makes an estimate better, s of work.
 constexpr double cheap_trial = 0.1;
 /// By how much errors of long steps that damp what they should not fall faster than the order says.
@@ -193,7 +191,7 @@ private:
         std::max(evaluations_of_a_solve, share_of_another_solve * searched_.trials.evaluations_of_a_solve());
     const double least =
         row_.force_evaluations + row_.linear_solves * (row_.iterates_locally ? evaluations_of_a_solve : of_a_solve);
-    return std::max(counted_, row_.iterates_locally ? evaluations_of_an_iteration * least : least);
+    return std::max(counted_, row_.iterates_locally ? evaluations_of_a_pass * least : least);
   }
 
   double cost_of(double time_step) const

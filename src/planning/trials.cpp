@@ -29,8 +29,6 @@ constexpr double much_shorter = 1.5;
 constexpr double most_of_own = 40.0;
 constexpr double most_of_scout = 0.25;
 constexpr double evaluations_of_a_first_solve = 5000.0;
-/// What a pass over the springs takes that moves their ends one after the other.
-constexpr double evaluations_of_a_pass = 3.0;
 constexpr double most_of_scout_by_tolerance = 50.0;
 
 /// By how much the errors of a sheet may differ from those of the coarser one of a trial, and what is taken where to

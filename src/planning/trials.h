@@ -22,6 +22,8 @@ constexpr int early_samples = 2;
 constexpr double untried_allowance = 3.0;
 /// By how much the errors of a sheet may differ from those of a coarser one.
 constexpr double most_allowance = 30.0;
+/// What a pass over the springs takes that handles them one after the other, in evaluations of the forces.
+constexpr double evaluations_of_a_pass = 3.0;
 /// A check compares steps with some that are shorter by this factor.
 constexpr double shorter_in_a_check = 2.0;
 
